@@ -24,10 +24,10 @@ page: setup-page
 	@web/build build
 	@echo "Open build/page/press.html in a browser."
 
-# Under the sanitizers the tests of readers, skins, streams and pages, and all fuzzers; `make sanitize` runs also those of circuits and the examples.
+# Under the sanitizers the tests of everything that reads files, messages and links, and all fuzzers; `make sanitize` runs all tests.
 test: release page asan-readers
 	ctest --test-dir build/release --output-on-failure -j 3
-	ctest --test-dir build/asan --output-on-failure -j 3 -LE once -R '^(corpuscle|page)-tests'
+	ctest --test-dir build/asan --output-on-failure -j 3 -LE once -R '^reader-tests'
 	$(MAKE) fuzz FUZZ_SECONDS=2
 
 sanitize: asan
@@ -35,7 +35,7 @@ sanitize: asan
 
 asan-readers: setup-test
 	cmake --preset asan
-	cmake --build --preset asan --target corpuscle-tests page-tests corpuscle-hdf5 corpuscle-sound fuzzers
+	cmake --build --preset asan --target reader-tests corpuscle-hdf5 corpuscle-sound fuzzers
 
 release: setup-test setup-python
 	cmake --preset release -D CORPUSCLE_TESTS=ON -D CORPUSCLE_PYTHON=ON

@@ -21,7 +21,7 @@ SECONDS = 5
 
 # The times of the frames of the screen, ms, and the simulated time at both ends, s.
 MEASURE = """
-    const [seconds, isPressed, done] = arguments, {session, press, stage} = corpuscle, frames = [], begin = performance.now(), from = session.time;
+    const [seconds, isPressed, done] = arguments, {session, press, skinView} = corpuscle, frames = [], begin = performance.now(), from = session.time;
     const x = press.x, y = press.y;
     press.isDown = isPressed;
     const frame = (now) => {

@@ -40,7 +40,7 @@ std::vector<std::string> column_texts(const CircuitPlot& plot, std::string Circu
 }
 
 /// For copy and pickle.
-py::tuple state_of(const CircuitPlot& plot) {
+py::tuple plot_state(const CircuitPlot& plot) {
     py::list columns;
     for (const auto& c : plot.columns) columns.append(py::make_tuple(c.name, c.unit, c.values, c.complex_values));
     return py::make_tuple(plot.name, plot.analysis, plot.has_sweep, plot.is_complex, plot.inner_points, columns);
@@ -72,7 +72,7 @@ void bind_circuit(py::module_& m) {
         .def_property_readonly("names", [](const CircuitPlot& p) { return column_texts(p, &CircuitColumn::name); })
         .def_property_readonly("units", [](const CircuitPlot& p) { return column_texts(p, &CircuitColumn::unit); })
         .def("curve", &curve_of)
-        .def(py::pickle(&state_of, &plot_of));
+        .def(py::pickle(&plot_state, &plot_of));
     py::class_<CircuitResult>(m, "CircuitResult")
         .def_readonly("title", &CircuitResult::title)
         .def_readonly("step", &CircuitResult::step)

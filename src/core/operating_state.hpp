@@ -16,10 +16,15 @@ struct OperatingState {
         std::string name;
         double voltage = 0;  ///< V
     };
+    struct Device {
+        std::string name;
+        double current = 0;  ///< A, into its first terminal, which is the drain of a transistor
+    };
     struct Block {
         std::string name;  ///< of the subcircuit; "top level" for the elements outside of subcircuits
         double power = 0;  ///< W, dissipated
         std::vector<Node> nodes = {};
+        std::vector<Device> devices = {};  ///< without the sources that deliver power
     };
     double time = 0;               ///< s since its start
     double supply = 0;             ///< V

@@ -134,6 +134,8 @@ SearchResult search_minimum(const CostFunction& cost, std::span<const double> st
     auto starts = best_points(std::move(points), costs, options.starts);
     SearchResult out{.point = starts[0], .local_costs = std::vector<double>(starts.size(), forbidden_cost)};
     pool.for_each(starts.size(), [&](std::size_t k, unsigned) {
+        constexpr std::size_t promising = 2;  // the given start and the best random point. After an interrupt the others cost time only
+        if (k >= promising && progress.is_interrupted()) return;
         LocalSearch local{cost, progress, 0, starts[k]};
         for (std::size_t stage = 0; stage < options.stages && !progress.is_interrupted(); ++stage) {
             local.stage = stage;

@@ -18,8 +18,17 @@ struct ElementType {
 constexpr ElementType element_types[] = {{"f32", 4}, {"f64", 8}, {"u32", 4}, {"u8", 1}};
 
 Result<Json> read_head(std::span<const std::byte> bytes) {
+    constexpr int max_depth = 16;  // because dump() and copies are recursive
     const std::string_view text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
-    auto head = Json::parse(text, nullptr, false);
+    bool is_too_deep = false;
+    auto head = Json::parse(
+        text,
+        [&](int depth, Json::parse_event_t, Json&) {
+            is_too_deep = is_too_deep || depth > max_depth;
+            return !is_too_deep;  // false: leave it out
+        },
+        false);
+    if (is_too_deep) return bad_input(fmt::format("values in the head of the message are nested more than {} deep", max_depth));
     if (head.is_discarded()) return bad_input("the head of the message is not JSON");
     if (!head.is_object()) return bad_input("the head of the message is not a JSON object");
     return head;

@@ -36,4 +36,7 @@ public:
 /// For each of `samples` samples, the array or the number with this name; `default_value` if the request has neither.
 Result<std::vector<double>> signal(ObjectReader&, const Message&, const char* name, std::size_t samples, double default_value);
 
+/// The error of a request that another thread has stopped.
+inline Error stopped_error() { return {ErrorCode::interrupted, "the request was stopped"}; }
+
 }  // namespace corpuscle::page

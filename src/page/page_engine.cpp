@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 #include <algorithm>
+#include <atomic>
 #include <new>
 
 #include "page/catalogue_answer.hpp"
@@ -15,6 +16,7 @@ namespace corpuscle::page {
 struct PageEngine::Impl {
     std::optional<Session> session;
     std::optional<ResponseJob> job;
+    std::atomic<bool> is_stopped = false;  // by another thread
 };
 
 namespace {
@@ -34,7 +36,7 @@ Result<Session*> session_of(Engine& engine, const Request& request) {
 
 /// Runs the job of the engine, and removes it if it has ended.
 Result<void> run_job(Engine& engine, const Request& request, double seconds) {
-    engine.job->run(seconds, request.answer);
+    TRY(engine.job->run(seconds, engine.is_stopped, request.answer));
     if (engine.job->is_done()) engine.job.reset();
     return {};
 }
@@ -68,7 +70,7 @@ Result<void> answer_start(Engine& engine, const Request& request) {
 }
 
 Result<void> answer_advance(Engine& engine, const Request& request) {
-    return TRY(session_of(engine, request))->advance(request.head, request.message, request.answer);
+    return TRY(session_of(engine, request))->advance(request.head, request.message, engine.is_stopped, request.answer);
 }
 
 Result<void> answer_contact(Engine& engine, const Request& request) {
@@ -112,7 +114,7 @@ Result<void> answer_operating(Engine& engine, const Request& request) {
 Result<void> answer_read(Engine&, const Request& request) { return read_recording(request.head, request.message, request.answer); }
 
 Result<void> answer_save(Engine& engine, const Request& request) {
-    return TRY(session_of(engine, request))->save(request.head, request.answer);
+    return TRY(session_of(engine, request))->save(request.head, request.message, request.answer);
 }
 
 struct Handler {
@@ -164,6 +166,7 @@ Result<void> handle(Engine& engine, std::span<const std::byte> bytes, MessageWri
 PageEngine::PageEngine() : impl_(std::make_unique<Impl>()) {}
 PageEngine::~PageEngine() = default;
 PageEngine::PageEngine(PageEngine&&) noexcept = default;
+void PageEngine::stop() { impl_->is_stopped = true; }
 
 std::vector<std::byte> PageEngine::request(std::span<const std::byte> bytes) {
     MessageWriter answer;

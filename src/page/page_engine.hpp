@@ -24,6 +24,9 @@ public:
         return request(std::as_bytes(std::span<const char>(json.data(), json.size())));
     }
 
+    /// Ends the request that another thread makes at this time, with an error. All later requests end with an error, too.
+    void stop();
+
     struct Impl;
 
 private:

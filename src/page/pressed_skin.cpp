@@ -127,6 +127,7 @@ void PressedSkin::describe(MessageWriter& answer, std::size_t first_unit) const 
     out["left"] = left->x, out["right"] = right->x, out["low"] = low->y, out["high"] = high->y;
     out["x"] = middle_.x, out["y"] = middle_.y;
     out["contact"] = contact_->description();
+    out["contact_parameters"] = contact_parameters();
     answer.head["skin"] = std::move(out);
     add_afferents(answer, innervation().afferents);
     add_positions(answer, "site_", at);
@@ -134,23 +135,35 @@ void PressedSkin::describe(MessageWriter& answer, std::size_t first_unit) const 
     add_outline(answer, plan.sites);
 }
 
+Json PressedSkin::contact_parameters() const {
+    auto out = Json::array();
+    for (const auto& entry : contact_->metadata()) {
+        constexpr std::string_view target = "contact.";
+        out.push_back({{"name", entry.name.substr(target.size())}, {"value", entry.value}});
+    }
+    return out;
+}
+
 Result<void> PressedSkin::change_contact(const std::string& indenter, std::span<const std::string> set, const Clock& clock) {
     contact_ = TRY(make_page_contact(indenter, set, innervation().plan.sites, clock));
     return {};
 }
 
-Result<void> PressedSkin::press(const ContactForce& all, std::uint32_t first_unit, std::vector<Spike>& spikes) {
+Result<void> PressedSkin::press(const ContactForce& all, const std::atomic<bool>& is_stopped, std::uint32_t first_unit,
+                                std::vector<Spike>& spikes) {
     ThreadPool pool(1);
     const auto first_spike = spikes.size();
     const auto parts = (all.force.size() + max_pressed_samples - 1) / max_pressed_samples;
     const auto samples =
         parts > 0 ? (all.force.size() + parts - 1) / parts : 0;  // equal parts, because a single sample costs as much as ten
     for (std::size_t at = 0; at < all.force.size(); at += samples) {
+        if (is_stopped) return stopped_error();
         const auto count = std::min(samples, all.force.size() - at);
         const auto part = [&](std::span<const double> values) { return values.empty() ? values : values.subspan(at, count); };
         const auto sites = TRY(contact_->press(
             {part(all.force), all.first + static_cast<std::int64_t>(at), part(all.shear_x), part(all.shear_y), part(all.x), part(all.y)}));
         TRY(skin_->respond(sites, count, spikes, pool));
+        samples_ += static_cast<std::int64_t>(count);
     }
     for (auto k = first_spike; k < spikes.size(); ++k) spikes[k].afferent_index += first_unit;
     return {};

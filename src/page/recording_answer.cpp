@@ -1,44 +1,23 @@
 #include "page/recording_answer.hpp"
 
 #include <fmt/format.h>
-#include <cstdlib>
-#include <filesystem>
 #include <fstream>
 
 #include "io/recording/recording_options.hpp"
 #include "page/documents.hpp"
+#include "page/temporary_directory.hpp"
 
 namespace corpuscle::page {
 namespace {
 
-namespace fs = std::filesystem;
-
 constexpr std::size_t max_values = 50'000'000;  // of all channels together
 
-/// A file in a new directory, both of which the destructor removes.
-class TemporaryFile {
-    fs::path directory_;
-
-public:
-    TemporaryFile() = default;
-    TemporaryFile(const TemporaryFile&) = delete;
-    TemporaryFile& operator=(const TemporaryFile&) = delete;
-    ~TemporaryFile() {
-        std::error_code ignored;
-        if (!directory_.empty()) fs::remove_all(directory_, ignored);
-    }
-    Result<std::string> write(const std::string& name, std::span<const std::byte> bytes) {
-        std::error_code status;
-        auto pattern = (fs::temp_directory_path(status) / "corpuscle-page-XXXXXX").string();
-        if (status || !::mkdtemp(pattern.data())) return bad_input("read: a temporary directory cannot be created");
-        directory_ = pattern;
-        const auto path = directory_ / name;
-        std::ofstream file(path, std::ios::binary);
-        file.write(reinterpret_cast<const char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()));
-        if (!file.flush()) return bad_input("read: the recording cannot be written to a temporary file");
-        return path.string();
-    }
-};
+Result<void> write_file(const std::string& path, std::span<const std::byte> bytes) {
+    std::ofstream file(path, std::ios::binary);
+    file.write(reinterpret_cast<const char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()));
+    if (!file.flush()) return bad_input("read: the recording cannot be written to a temporary file");
+    return {};
+}
 
 /// The options of the request: each is a text, as on the command line.
 Result<RecordingOptions> read_options(ObjectReader& request) {
@@ -81,14 +60,15 @@ Result<void> add_force(ForceSource& source, MessageWriter& answer) {
 }  // namespace
 
 Result<void> read_recording(ObjectReader& request, const Message& message, MessageWriter& answer) {
-    const auto name = fs::path(TRY(request.text("name"))).filename().string();
+    const auto name = std::filesystem::path(TRY(request.text("name"))).filename().string();
     const auto options = TRY(read_options(request));
     TRY(request.check_all_read());
     const auto* bytes = message.find("file");
     if (!bytes || bytes->type != "u8") return bad_input("read: the array \"file\" of type u8 is missing");
     if (name.empty() || name == "." || name == "..") return bad_input("read: \"name\" is not the name of a file, such as touch.csv");
-    TemporaryFile file;
-    const auto path = TRY(file.write(name, bytes->data));
+    const auto directory = TRY(TemporaryDirectory::make());
+    const auto path = directory.file(name);
+    TRY(write_file(path, bytes->data));
     const auto clean = [&](const std::string& text) { return without_path(text, path, name); };
     auto source = open_recording(path, options);
     if (!source) return bad_input(clean(source.error().text()));

@@ -91,12 +91,15 @@ void ResponseJob::simulate_block() {
     ++plan_, simulation_.reset(), afferent_.reset();
 }
 
-void ResponseJob::run(double seconds, MessageWriter& answer) {
+Result<void> ResponseJob::run(double seconds, const std::atomic<bool>& is_stopped, MessageWriter& answer) {
     const auto start = std::chrono::steady_clock::now();
     const auto has_time = [&] {
         return seconds == 0 || std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count() < seconds;
     };
-    while (!is_done() && has_time()) simulate_block();
+    while (!is_done() && has_time()) {
+        if (is_stopped) return stopped_error();
+        simulate_block();
+    }
     const auto samples = static_cast<double>(std::max<std::size_t>(1, force_.force.size()));
     answer.head["answer"] = name_;
     answer.head["done"] = is_done();
@@ -108,6 +111,7 @@ void ResponseJob::run(double seconds, MessageWriter& answer) {
     add_spikes(answer, spikes_, force_.clock);
     spikes_.clear();
     if (is_done()) add_end(answer);
+    return {};
 }
 
 /// The parts of the last answer.

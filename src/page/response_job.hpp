@@ -1,6 +1,8 @@
 #pragma once
 // The simulation of several afferents with one complete force, in slices of time: `respond` and `monte-carlo`.
 
+#include <atomic>
+
 #include "page/page_force.hpp"
 #include "page/row.hpp"
 #include "run/simulate.hpp"
@@ -36,8 +38,9 @@ public:
     static Result<ResponseJob> monte_carlo(ObjectReader&, const Message&);
 
     bool is_done() const { return plan_ == plans_.size(); }
-    /// Simulates for about `seconds`, or to the end if it is 0, and adds the results to the answer.
-    void run(double seconds, MessageWriter& answer);
+    /// Simulates for about `seconds`, or to the end if it is 0, and adds the results to the answer. It ends with an error when
+    /// `is_stopped`.
+    Result<void> run(double seconds, const std::atomic<bool>& is_stopped, MessageWriter& answer);
 };
 
 }  // namespace corpuscle::page

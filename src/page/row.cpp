@@ -1,6 +1,7 @@
 #include "page/row.hpp"
 
 #include <fmt/format.h>
+#include <algorithm>
 
 #include "page/documents.hpp"
 #include "run/afferent_plan.hpp"
@@ -86,7 +87,22 @@ Result<bool> Row::change(std::vector<std::string> set, const SimulationOptions& 
     return is_carried;
 }
 
-RowBlock Row::simulate(std::span<const double> force, std::uint32_t index, std::size_t every) {
+/// Simulates a block in parts of a tenth of a second, between which it can be stopped. `probes`: where their values in the block begin.
+Result<void> Row::respond(std::span<const double> force, double dt, const std::atomic<bool>& is_stopped, std::vector<double*> probes,
+                          ResponseBlock& response) {
+    constexpr double part = 0.1;  // s
+    const auto samples = static_cast<std::size_t>(std::max(1.0, part / dt));
+    response.probes = probes;
+    for (std::size_t at = 0; at < force.size() && !is_stopped; at += samples) {
+        TRY(afferent_->respond(force.subspan(at, std::min(samples, force.size() - at)), state_, response));
+        for (auto& values : probes) values += samples;
+    }
+    response.probes = {};
+    return {};
+}
+
+RowBlock Row::simulate(std::span<const double> force, std::uint32_t index, std::size_t every, double dt,
+                       const std::atomic<bool>& is_stopped) {
     RowBlock out;
     const auto first = origin_ + state_.step - afferent_->delay();
     const bool records = every > 0 && error_.empty();
@@ -96,8 +112,8 @@ RowBlock Row::simulate(std::span<const double> force, std::uint32_t index, std::
     out.probes.resize(values.size());
     out.range_violations.resize(afferent_->ranges().size());
     if (!error_.empty()) return out;
-    ResponseBlock response{out.spikes, index, arrays, out.range_violations};
-    if (const auto done = afferent_->respond(force, state_, response); !done) error_ = done.error().text();
+    ResponseBlock response{out.spikes, index, {}, out.range_violations};
+    if (const auto done = respond(force, dt, is_stopped, std::move(arrays), response); !done) error_ = done.error().text();
     for (auto& spike : out.spikes) spike.step += origin_;
     out.steps = response.steps, out.rejected = response.rejected_steps, out.iterations = response.newton_iterations;
     out.energy = response.energy_use;

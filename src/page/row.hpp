@@ -1,6 +1,8 @@
 #pragma once
 // One afferent of a session, which feels the whole force.
 
+#include <atomic>
+
 #include "core/afferent_factory.hpp"
 #include "page/object_reader.hpp"
 
@@ -37,6 +39,9 @@ class Row {
     std::int64_t origin_ = 0;  // the sample of the session at which the state's step is 0
     std::string error_;        // why it is silent; "": it works
 
+    Result<void> respond(std::span<const double> force, double dt, const std::atomic<bool>& is_stopped, std::vector<double*> probes,
+                         ResponseBlock&);
+
 public:
     /// `now`: number of the first sample that it will feel.
     static Result<Row> make(RowRequest, const SimulationOptions&, std::int64_t now);
@@ -50,8 +55,9 @@ public:
     /// Replaces the settings. Returns true if the state goes on, false if the afferent starts again.
     Result<bool> change(std::vector<std::string> set, const SimulationOptions&, std::int64_t now);
     /// Simulates the next block. `every`: each value of a probe whose sample number is a multiple of it is returned; 0: none. If the
-    /// afferent does not converge, error() says so, and from then on it is silent.
-    RowBlock simulate(std::span<const double> force, std::uint32_t index, std::size_t every);
+    /// afferent does not converge, error() says so, and from then on it is silent. Ends early when `is_stopped`.
+    RowBlock simulate(std::span<const double> force, std::uint32_t index, std::size_t every, double dt,
+                      const std::atomic<bool>& is_stopped);
     Result<OperatingState> operating_state() const { return afferent_->operating_state(state_); }
     /// The time (s) of the session at which the row started.
     double origin(double dt) const { return static_cast<double>(origin_) * dt; }

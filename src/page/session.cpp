@@ -3,8 +3,9 @@
 #include <fmt/format.h>
 #include <algorithm>
 
+#include "io/sandbox/helper_process.hpp"
 #include "page/documents.hpp"
-#include "page/spikes_csv.hpp"
+#include "page/saved_spikes.hpp"
 
 namespace corpuscle::page {
 namespace {
@@ -29,8 +30,9 @@ Json operating_document(const OperatingState& state, double origin) {
     out["sources"] = out["blocks"] = Json::array();
     for (const auto& s : state.sources) out["sources"].push_back({{"name", s.name}, {"power", s.power}, {"current", s.current}});
     for (const auto& b : state.blocks) {
-        Json block = {{"name", b.name}, {"power", b.power}, {"nodes", Json::array()}};
+        Json block = {{"name", b.name}, {"power", b.power}, {"nodes", Json::array()}, {"devices", Json::array()}};
         for (const auto& n : b.nodes) block["nodes"].push_back({{"name", n.name}, {"voltage", n.voltage}});
+        for (const auto& d : b.devices) block["devices"].push_back({{"name", d.name}, {"current", d.current}});
         out["blocks"].push_back(std::move(block));
     }
     return out;
@@ -67,6 +69,8 @@ Result<Session> Session::start(ObjectReader& request, MessageWriter& answer) {
             answer.head["warnings"].push_back(
                 fmt::format("{} needs a sampling rate of at least {:g} Hz", row.plan().name, row.plan().min_rate));
     answer.head["units"] = units;
+    answer.head["formats"] = {"csv"};
+    if (find_helper_program("corpuscle-hdf5")) answer.head["formats"].push_back("nwb");
     return out;
 }
 
@@ -91,7 +95,7 @@ Result<ContactForce> Session::contact_force(ObjectReader& request, const Message
     for (const auto& [first, second] : {std::pair("x", "y"), {"shear_x", "shear_y"}})
         if (has(first) != has(second)) return bad_input(fmt::format("{}: give both {} and {}, or neither", request.name(), first, second));
     arrays.push_back(TRY(signal(request, message, "force", samples, 0)));
-    ContactForce out{arrays[0], step_};
+    ContactForce out{arrays[0], samples_};
     for (const auto& [name, values, standard] :
          {std::tuple("x", &out.x, at_.x), {"y", &out.y, at_.y}, {"shear_x", &out.shear_x, 0.0}, {"shear_y", &out.shear_y, 0.0}}) {
         arrays.push_back(TRY(signal(request, message, name, samples, standard)));
@@ -101,10 +105,13 @@ Result<ContactForce> Session::contact_force(ObjectReader& request, const Message
 }
 
 /// Presses the skin; the answer's parts for its classes and its contact.
-Result<Json> Session::advance_skin(const ContactForce& force, std::vector<Spike>& spikes) {
+Result<Json> Session::advance_skin(const ContactForce& force, const std::atomic<bool>& is_stopped, std::vector<Spike>& spikes) {
     const auto first_unit = static_cast<std::uint32_t>(rows_.size());
     const auto first_spike = spikes.size();
-    TRY(skin_->press(force, first_unit, spikes));
+    if (const auto done = skin_->press(force, is_stopped, first_unit, spikes); !done) {
+        if (skin_->samples() != samples_) failure_ = done.error().text();
+        return done.error();
+    }
     const auto& skin = skin_->innervation();
     std::vector<std::size_t> counts(skin.plan.classes.size());
     for (auto k = first_spike; k < spikes.size(); ++k) ++counts[skin.afferents[spikes[k].afferent_index - first_unit].class_index];
@@ -115,24 +122,26 @@ Result<Json> Session::advance_skin(const ContactForce& force, std::vector<Spike>
     return out;
 }
 
-Result<void> Session::advance(ObjectReader& request, const Message& message, MessageWriter& answer) {
+Result<void> Session::advance(ObjectReader& request, const Message& message, const std::atomic<bool>& is_stopped, MessageWriter& answer) {
     const auto samples = static_cast<std::size_t>(TRY(request.integer("samples", 1, max_block)));
     const auto every = static_cast<std::size_t>(TRY(request.integer("every", 0, max_block, 0)));
+    if (!failure_.empty()) return bad_input(fmt::format("advance: after this error the simulation must be started again: {}", failure_));
     std::vector<std::vector<double>> arrays;
     arrays.reserve(5);
     const auto force = TRY(contact_force(request, message, samples, arrays));
     TRY(request.check_all_read());
     std::vector<Spike> spikes;
-    if (skin_) answer.head.update(TRY(advance_skin(force, spikes)));
-    answer.head["from"] = step_, answer.head["to"] = step_ + static_cast<std::int64_t>(samples);
+    if (skin_) answer.head.update(TRY(advance_skin(force, is_stopped, spikes)));
+    answer.head["from"] = samples_, answer.head["to"] = samples_ + static_cast<std::int64_t>(samples);
     answer.head["rows"] = Json::array();
     for (std::size_t r = 0; r < rows_.size(); ++r) {
-        const auto block = rows_[r].simulate(force.force, static_cast<std::uint32_t>(r), every);
+        const auto block = rows_[r].simulate(force.force, static_cast<std::uint32_t>(r), every, options_.dt, is_stopped);
+        if (is_stopped) return stopped_error();
         spikes.insert(spikes.end(), block.spikes.begin(), block.spikes.end());
         answer.head["rows"].push_back(row_answer(rows_[r], block, options_));
         for (std::size_t p = 0; p < block.probes.size(); ++p) answer.add(fmt::format("probe.{}.{}", r, p), std::span(block.probes[p]));
     }
-    step_ += static_cast<std::int64_t>(samples);
+    samples_ += static_cast<std::int64_t>(samples);
     at_ = {force.x.back(), force.y.back(), 0};
     std::sort(spikes.begin(), spikes.end());
     add_spikes(answer, spikes, clock_);
@@ -146,7 +155,7 @@ Result<void> Session::change_contact(ObjectReader& request, MessageWriter& answe
     TRY(request.check_all_read());
     if (!skin_) return bad_input("contact: the session has no skin; start one with the key \"skin\"");
     TRY(skin_->change_contact(indenter, set, clock_));
-    answer.head["contact"] = skin_->contact().description();
+    answer.head["contact"] = skin_->contact().description(), answer.head["contact_parameters"] = skin_->contact_parameters();
     return {};
 }
 
@@ -155,7 +164,7 @@ Result<void> Session::change_row(ObjectReader& request, MessageWriter& answer) {
     auto set = TRY(request.texts("set"));
     TRY(request.check_all_read());
     if (index >= rows_.size()) return bad_input(fmt::format("set: there is no row {}; the session has {}", index, rows_.size()));
-    const bool is_carried = TRY(rows_[index].change(std::move(set), options_, step_));
+    const bool is_carried = TRY(rows_[index].change(std::move(set), options_, samples_));
     answer.head["state"] = is_carried ? "carried" : "restarted";
     answer.head["row"] = rows_[index].document(options_.dt);
     return {};
@@ -170,12 +179,30 @@ Result<void> Session::operating(ObjectReader& request, MessageWriter& answer) co
     return {};
 }
 
-Result<void> Session::save(ObjectReader& request, MessageWriter& answer) const {
+/// The force that `save` has as an array.
+Result<SavedForce> Session::force_to_save(ObjectReader& request, const Message& message) const {
+    SavedForce out{static_cast<std::int64_t>(TRY(request.integer("force_from", 0, max_seed, 0))), {}};
+    const auto* array = message.find("force");
+    if (array) out.values = TRY(numbers_of(*array));
+    if (out.first + static_cast<std::int64_t>(out.values.size()) > samples_)
+        return bad_input(fmt::format("save: the force ends after sample {}, the last one that was simulated", samples_));
+    return out;
+}
+
+Result<void> Session::save(ObjectReader& request, const Message& message, MessageWriter& answer) const {
+    const auto format = TRY(request.text("format", "csv"));
+    const auto force = TRY(force_to_save(request, message));
     TRY(request.check_all_read());
     auto spikes = spikes_;
     std::sort(spikes.begin(), spikes.end());  // those of circuits came later than others
-    answer.head["name"] = "spikes.csv", answer.head["dropped"] = dropped_;
-    answer.add("file", spikes_csv(rows_, skin_ ? &skin_->innervation() : nullptr, spikes, clock_));
+    const SavedSpikes saved{rows_, skin_ ? &skin_->innervation() : nullptr, spikes, dropped_ == 0, clock_, samples_};
+    if (format == "csv")
+        answer.add("file", spikes_csv(saved));
+    else if (format == "nwb")
+        answer.add("file", TRY(spikes_nwb(saved, force)));
+    else
+        return bad_input(fmt::format("save: there is no format '{}' (there are csv and nwb)", format));
+    answer.head["name"] = "spikes." + format, answer.head["dropped"] = dropped_;
     return {};
 }
 

@@ -1,8 +1,11 @@
 #pragma once
 // The simulation of a session, since its last `start`.
 
+#include <atomic>
+
 #include "page/pressed_skin.hpp"
 #include "page/row.hpp"
+#include "page/saved_spikes.hpp"
 
 namespace corpuscle::page {
 
@@ -11,14 +14,16 @@ class Session {
     SimulationOptions options_;
     std::vector<Row> rows_;
     std::optional<PressedSkin> skin_;
-    std::int64_t step_ = 0;      // number of samples simulated so far
+    std::int64_t samples_ = 0;   // that were simulated
     Position at_;                // of the contact at the last sample
     std::vector<Spike> spikes_;  // since the start, in the order in which they came
     std::uint64_t dropped_ = 0;  // number of spikes before those of spikes_
+    std::string failure_;        // why the session cannot go on; "": it can
 
     void keep(std::span<const Spike>);
     Result<ContactForce> contact_force(ObjectReader&, const Message&, std::size_t samples, std::vector<std::vector<double>>& arrays) const;
-    Result<Json> advance_skin(const ContactForce&, std::vector<Spike>&);
+    Result<SavedForce> force_to_save(ObjectReader&, const Message&) const;
+    Result<Json> advance_skin(const ContactForce&, const std::atomic<bool>& is_stopped, std::vector<Spike>&);
 
 public:
     /// Answers `start`: the session of the request.
@@ -28,11 +33,12 @@ public:
     const SimulationOptions& options() const { return options_; }
     std::vector<RowRequest> row_requests() const;
 
-    Result<void> advance(ObjectReader&, const Message&, MessageWriter& answer);
+    /// Ends with an error when `is_stopped`. After an error in the middle of a block the session cannot go on.
+    Result<void> advance(ObjectReader&, const Message&, const std::atomic<bool>& is_stopped, MessageWriter& answer);
     Result<void> change_contact(ObjectReader&, MessageWriter& answer);
     Result<void> change_row(ObjectReader&, MessageWriter& answer);
     Result<void> operating(ObjectReader&, MessageWriter& answer) const;
-    Result<void> save(ObjectReader&, MessageWriter& answer) const;
+    Result<void> save(ObjectReader&, const Message&, MessageWriter& answer) const;
 };
 
 /// The sampling rate of a request.

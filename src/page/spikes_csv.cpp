@@ -1,34 +1,33 @@
-#include "page/spikes_csv.hpp"
-
 #include <map>
 
 #include "core/text/csv_field.hpp"
+#include "page/saved_spikes.hpp"
 #include "run/sinks/spike_lines.hpp"
 
 namespace corpuscle::page {
-namespace {
 
-/// Names of afferent and channel of each unit. A second row of the same afferent is called "sa1#2".
-std::vector<std::string> unit_names(std::span<const Row> rows, const Innervation* skin) {
-    std::vector<std::string> out;
+UnitNames unit_names(const SavedSpikes& saved) {
+    UnitNames out;
     std::map<std::string, int> count;
-    for (const auto& row : rows) {
+    for (const auto& row : saved.rows) {
         const auto& name = row.plan().name;
         const int number = ++count[name];
-        out.push_back(quote_csv_field(number > 1 ? fmt::format("{}#{}", name, number) : name) + ",force");
+        out.afferents.push_back(number > 1 ? fmt::format("{}#{}", name, number) : name), out.channels.emplace_back("force");
     }
+    const auto* skin = saved.skin;
     for (std::size_t u = 0; skin && u < skin->afferents.size(); ++u)
-        out.push_back(quote_csv_field(skin->afferent_name(u)) + "," + quote_csv_field(skin->plan.sites.regions[skin->afferents[u].region]));
+        out.afferents.push_back(skin->afferent_name(u)), out.channels.push_back(skin->plan.sites.regions[skin->afferents[u].region]);
     return out;
 }
 
-}  // namespace
-
-std::string spikes_csv(std::span<const Row> rows, const Innervation* skin, std::span<const Spike> spikes, const Clock& clock) {
-    const auto names = unit_names(rows, skin);
+std::string spikes_csv(const SavedSpikes& saved) {
+    const auto names = unit_names(saved);
+    std::vector<std::string> fields;
+    for (std::size_t u = 0; u < names.afferents.size(); ++u)
+        fields.push_back(quote_csv_field(names.afferents[u]) + "," + quote_csv_field(names.channels[u]));
     fmt::memory_buffer text;
     text.append(spike_lines_heading);
-    for (const auto& s : spikes) append_spike_line(text, names[s.afferent_index], s, clock);
+    for (const auto& s : saved.spikes) append_spike_line(text, fields[s.afferent_index], s, saved.clock);
     return fmt::to_string(text);
 }
 

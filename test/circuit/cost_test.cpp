@@ -131,6 +131,19 @@ TEST(Cost, SourcesDeliverThePowerThatBlocksDissipateInEveryCircuit) {
     EXPECT_GE(with_supply, 30) << "ideal circuits need no supply";
 }
 
+TEST(Cost, DeviceCurrentsFollowOhmsLaw) {
+    const auto context =
+        cost_context(make_circuit("t\nvdd vdd 0 2\nxa vdd a one\nxb a 0 one\n.subckt one p q\nr1 p q 1k\n.ends\nr2 0 vdd 2k\n.op\n"));
+    const auto x = context->operating_point()->x;
+    const PowerMeter meter(context->system, x, 1e-12);
+    std::map<std::string, double> found;
+    for (const auto& device : meter.device_currents(x, 0)) found[meter.blocks().names[device.block] + ":" + device.name] = device.current;
+    ASSERT_EQ(found.size(), 3U) << "not the source";
+    EXPECT_NEAR(found["a:xa.r1"], 1e-3, 1e-11);
+    EXPECT_NEAR(found["b:xb.r1"], 1e-3, 1e-11);
+    EXPECT_NEAR(found["top level:r2"], -1e-3, 1e-11) << "into the first terminal";
+}
+
 TEST(Cost, PowerFollowsOhmsLaw) {
     const auto c =
         cost(make_circuit("t\nvdd vdd 0 2\nvf force 0 0.5 force 1\n"

@@ -2,6 +2,7 @@
 
 #include "fit/afferent_fit.hpp"
 
+#include <atomic>
 #include <nlohmann/json.hpp>
 
 #include "fit/fit_document.hpp"
@@ -200,6 +201,19 @@ TEST(Fit, AnInterruptedSearchReturnsTheBestPointSoFar) {
     EXPECT_TRUE(result.is_interrupted);
     EXPECT_LE(result.score, result.start_score);
     EXPECT_FALSE(result.parameters[0].low.has_value());
+}
+
+TEST(Fit, AnInterruptedSearchEvaluatesNoMoreOfItsStarts) {
+    std::atomic<int> evaluations = 0;
+    const CostFunction cost = [&](std::span<const double> x, std::size_t) { return ++evaluations, (x[0] - 0.3) * (x[0] - 0.3); };
+    ThreadPool pool(2);
+    SearchOptions options{.points = 1000, .starts = 900, .evaluations = 100};
+    int calls = 0;
+    options.should_continue = [&](double) { return ++calls < 500; };
+    const auto found = search_minimum(cost, std::vector<double>{0.9}, pool, options);
+    EXPECT_TRUE(found.is_interrupted);
+    EXPECT_LT(found.cost, 1e-4);  // that of the best of 500 random points
+    EXPECT_LT(evaluations, 520);
 }
 
 TEST(Fit, EigenvaluesOfASymmetricMatrix) {

@@ -40,6 +40,20 @@ TEST(PageMessage, MayBeTheTextOfItsHead) {
     EXPECT_EQ(message->head["request"], "catalogue");
 }
 
+TEST(PageMessage, ThatIsNestedDeeplyIsAnError) {
+    constexpr int depth = 120'000;
+    for (const auto& [open, close] : {std::pair("[", "]"), std::pair(R"({"x":)", "}")}) {
+        std::string text = R"({"request": )";
+        for (int k = 0; k < depth; ++k) text += open;
+        text += "1";
+        for (int k = 0; k < depth; ++k) text += close;
+        const auto message = read_message(bytes_of(text + "}"));
+        ASSERT_FALSE(message);
+        EXPECT_EQ(message.error().message, "values in the head of the message are nested more than 16 deep");
+    }
+    EXPECT_TRUE(read_message(bytes_of(R"({"request": [[[[{"x": 1}]]]]})")));
+}
+
 TEST(PageMessage, ThatIsCutOffAnywhereIsAnError) {
     const auto bytes = sample_message();
     for (std::size_t size = 0; size < bytes.size(); ++size) {

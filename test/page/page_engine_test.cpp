@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 #include <algorithm>
+#include <chrono>
+#include <thread>
 
 #include "core/stimulus/stimuli.hpp"
 #include "page/ask.hpp"
@@ -112,6 +114,22 @@ TEST(PageEngine, SaysWhetherAChangedRowGoesOnOrStartsAgain) {
     for (const double t : answer.numbers("time")) EXPECT_GE(t, 0.1);
 }
 
+TEST(PageEngine, ALongRequestEndsWhenItIsStopped) {
+    const std::string_view requests[] = {
+        R"({"request": "monte-carlo", "afferent": "sa1-circuit", "chips": 1000, "rate": 100000, "stimulus": "sine", "stimulus_set": ["duration=100s"]})",
+        R"({"request": "advance", "samples": 100000, "force": 1})"};
+    for (const auto request : requests) {
+        PageEngine engine;
+        ask_well(engine, R"({"request": "start", "rate": 10, "rows": [{"afferent": "sa1-circuit"}]})");
+        std::thread stopping([&] {
+            std::this_thread::sleep_for(std::chrono::milliseconds(50));
+            engine.stop();
+        });
+        EXPECT_EQ(ask(engine, request).error(), "the request was stopped");  // it would take hours
+        stopping.join();
+    }
+}
+
 TEST(PageEngine, GivesTheOperatingStateOfACircuit) {
     PageEngine engine;
     const auto start =
@@ -127,6 +145,7 @@ TEST(PageEngine, GivesTheOperatingStateOfACircuit) {
     for (const auto& block : state["blocks"]) {
         dissipated += block["power"].get<double>(), nodes += block["nodes"].size();
         names.push_back(block["name"]);
+        EXPECT_EQ(block["devices"].empty(), block["name"] == "top level") << block["name"] << ": it has only sources";
     }
     EXPECT_NEAR(dissipated / state["power"].get<double>(), 1, 0.05) << "the rest charges capacitors";
     EXPECT_GT(nodes, 20U);

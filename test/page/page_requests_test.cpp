@@ -1,11 +1,19 @@
 // The requests of the page that are not simulations, and refused ones.
 
 #include <fmt/format.h>
+#include <algorithm>
+#include <fstream>
 
+#include "io/recording/recording_options.hpp"
+#include "io/spikes/spike_files.hpp"
 #include "page/ask.hpp"
+#include "page/temporary_directory.hpp"
+#include "support/support.hpp"
 
 namespace corpuscle::page {
 namespace {
+
+using test::value_or_throw;
 
 const Json* find_named(const Json& list, std::string_view name) {
     for (const auto& entry : list)
@@ -125,6 +133,40 @@ TEST(PageRequests, TheSpikesSinceTheStartAreSavedAsCsv) {
     EXPECT_TRUE(text.starts_with("afferent,channel,time_s\nsa1,force,")) << text.substr(0, 60);
     EXPECT_NE(text.find("sa1#2,force,"), std::string::npos);
     EXPECT_EQ(static_cast<std::size_t>(std::count(text.begin(), text.end(), '\n')), 1 + advanced.numbers("time").size());
+}
+
+TEST(PageRequests, SavedSpikesAsNwbAreThoseOfTheSession) {
+    PageEngine engine;
+    const auto started =
+        ask_well(engine, R"({"request": "start", "rate": 10000, "rows": [{"afferent": "sa1"}], "skin": {"population": "fingertip"}})");
+    EXPECT_EQ(started["formats"], Json::array({"csv", "nwb"}));
+    const auto advanced = ask_well(engine, R"({"request": "advance", "samples": 3000, "force": 2})");
+    const auto force = std::vector<double>(1000, 2.0);
+    const auto saved = ask(engine, R"({"request": "save", "format": "nwb", "force_from": 2000})", "force", force);
+    ASSERT_EQ(saved.error(), "");
+    EXPECT_EQ(saved["name"], "spikes.nwb");
+    const auto directory = value_or_throw(TemporaryDirectory::make());
+    const auto path = directory.file("saved.nwb");
+    const auto* file = saved.message.find("file");
+    std::ofstream(path, std::ios::binary).write(reinterpret_cast<const char*>(file->data.data()), static_cast<long>(file->count));
+
+    std::vector<double> found;
+    std::size_t of_row = 0;
+    for (const auto& train : value_or_throw(read_spikes(path, {}))) {
+        found.insert(found.end(), train.times.begin(), train.times.end());
+        if (train.afferent == "sa1") of_row = train.times.size();
+    }
+    std::sort(found.begin(), found.end());
+    EXPECT_EQ(found, advanced.numbers("time"));
+    EXPECT_EQ(of_row, advanced["rows"][0]["spikes"]);
+    EXPECT_GT(of_row, 1U);
+    const auto recording = value_or_throw(open_recording(path, {}));
+    EXPECT_EQ(recording->clock().rate(), 10000);
+    EXPECT_EQ(recording->clock().t0, 0.2);
+
+    EXPECT_EQ(ask(engine, R"({"request": "save", "format": "nwb", "force_from": 2001})", "force", force).error(),
+              "save: the force ends after sample 3000, the last one that was simulated");
+    EXPECT_EQ(ask(engine, R"({"request": "save", "format": "mat"})").error(), "save: there is no format 'mat' (there are csv and nwb)");
 }
 
 TEST(PageRequests, TheIndenterChangesWhileTheSimulationGoesOn) {

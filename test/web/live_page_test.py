@@ -45,7 +45,7 @@ class LivePage(Pages):
 
     def press(self, seconds):
         """Presses the middle of the skin with the pointer."""
-        canvas = self.browser.find_element(By.CSS_SELECTOR, "#stage canvas")
+        canvas = self.browser.find_element(By.CSS_SELECTOR, "#skin-view canvas")
         ActionChains(self.browser, duration=50).move_to_element(canvas).click_and_hold().perform()
         self.wait(seconds)
         ActionChains(self.browser, duration=50).move_by_offset(20, 10).release().perform()
@@ -102,7 +102,7 @@ class Press(LivePage):
         self.assertGreater(counts[0], 2 * counts[1])
 
     def test_the_keyboard_alone_presses_and_moves(self):
-        stage = self.browser.find_element(By.ID, "stage")
+        stage = self.browser.find_element(By.ID, "skin-view")
         for _ in range(40):
             if self.js("return document.activeElement === arguments[0]", stage):
                 break
@@ -156,11 +156,49 @@ class Settings(LivePage):
         self.press(0.5)
         self.assertGreater(self.counts()[2], before)
 
+    def follow(self, link):
+        """Changes the link in the address bar. The page follows it without being loaded again."""
+        self.js("corpuscle.before = corpuscle.session.force; location.hash = arguments[0]", link)  # a start makes a new curve of the force
+        self.until(lambda: self.js("return corpuscle.session.force !== corpuscle.before && corpuscle.session.time > 0"))
+
+    def test_the_page_follows_a_link_in_the_address_bar(self):
+        self.follow("#rows=sa1~k_A=4u&force=2.5&skin=none")
+        self.assertEqual(self.js("return corpuscle.session.rows.map(({info}) => info.name)"), ["sa1"])
+        self.assertEqual(self.js("return corpuscle.press.target"), 2.5)
+        self.follow("#rows=none")
+        self.assertEqual(self.js("return corpuscle.session.rows.length"), 0)
+
     def test_a_damaged_or_oversized_link_is_refused(self):
         for link in ("#rows=sa1~f_B", "#rows=nothing", "#skin=..%2Fetc", "#rate=0", "#force=1e9", "#%", "#x=1", "#rows=" + "sa1," * 2000, "#rows=sa1~f_B%3D" + "9" * 200, "#rows=" + urllib.parse.quote(PAYLOAD)):
-            self.start(link)
+            self.follow(link)
             self.assertIn("damaged", self.text("message"), link)
             self.assertEqual(self.js("return corpuscle.session.rows.length"), 4, link)
+        self.start("#rows=sa1~f_B")
+        self.assertIn("damaged", self.text("message"))
+
+    def test_a_link_that_the_engine_refuses_opens_the_defaults(self):
+        self.start("#rows=sa1~f_B=abc")
+        self.assertIn("is refused", self.text("message"))
+        self.assertIn("f_B", self.text("message"))
+        self.wait(0.1)
+        self.assertEqual(self.js("return corpuscle.session.rows.length"), 4)
+
+    def test_a_refused_change_leaves_everything_as_it_was(self):
+        self.js("document.querySelector('.skin-controls details').open = true")
+        self.set_number("radius", "2")
+        self.until(lambda: "radius" in self.text("message"))
+        value = "return document.querySelector('.skin-controls [data-parameter=radius] input[type=number]').value"
+        self.assertEqual(self.js(value), "0.005")
+        self.assertNotIn("radius", self.js("return location.hash"))
+        self.set_number("radius", "0.004")
+        self.until(lambda: "radius" in self.js("return location.hash"))
+        self.assertEqual(self.js(value), "0.004")
+        self.assertEqual(self.text("message"), "")
+        # A restart that the engine refuses: the rows stay.
+        self.js("corpuscle.session.settings.seed = -1; document.querySelector('[data-row=sa1] .remove').click()")
+        self.until(lambda: "seed" in self.text("message"))
+        self.assertEqual(self.js("return corpuscle.session.settings.rows.length"), 3)
+        self.wait(0.1)
 
     def test_an_afferent_can_be_added_and_removed(self):
         self.js("const select = document.getElementById('add-row'); select.selectedIndex = [...select.options].findIndex(({text}) => text.startsWith('fa1-circuit')); select.dispatchEvent(new Event('change'))")
@@ -168,6 +206,42 @@ class Settings(LivePage):
         self.browser.find_element(By.CSS_SELECTOR, '[data-row="sa1"] .remove').click()
         self.until(lambda: len(self.counts()) == 3)
         self.assertIn("fa1-circuit", self.js("return corpuscle.session.rows.map(({info}) => info.name)"))
+
+
+class Controls(LivePage):
+    ROWS = "sa1"
+
+    def test_the_spikes_of_rows_are_heard(self):
+        self.js("""corpuscle.clicks = 0;
+            const start = AudioBufferSourceNode.prototype.start;
+            AudioBufferSourceNode.prototype.start = function (...when) { ++corpuscle.clicks; return start.apply(this, when); };""")
+        self.browser.find_element(By.ID, "sound").click()
+        self.until(lambda: self.text("sound") == "Sound on")
+        self.press(0.8)
+        self.assertGreater(self.counts()[0], 3)
+        self.assertEqual(self.js("return corpuscle.clicks"), self.counts()[0])
+
+    def test_a_restart_ends_a_pause(self):
+        self.browser.find_element(By.ID, "pause").click()
+        self.until(lambda: self.text("pause") == "Go on")
+        self.browser.find_element(By.ID, "restart").click()
+        self.until(lambda: self.text("pause") == "Pause")
+        self.wait(0.1)
+
+    def test_a_finger_on_the_skin_does_not_scroll_the_page(self):
+        self.assertEqual(self.js("return getComputedStyle(document.querySelector('#skin-view canvas')).touchAction"), "none")
+
+    def test_the_menu_of_the_skin_opens_by_key(self):
+        self.js("document.querySelector('#skin-view .menu summary').focus()")
+        ActionChains(self.browser).send_keys(Keys.ENTER).perform()
+        self.assertTrue(self.js("return document.querySelector('#skin-view .menu').open"))
+        self.assertFalse(self.js("return corpuscle.press.isDown"))
+
+    def test_more_than_the_last_seconds_can_be_seen(self):
+        self.until(lambda: self.time() > 6)
+        self.js("corpuscle.charts.view.reset()")
+        self.wait(0.2)
+        self.assertGreater(self.js("const {view} = corpuscle.charts; return view.b - view.a"), 5.9)
 
 
 class Chip(LivePage):
@@ -194,6 +268,19 @@ class Chip(LivePage):
         expected = trains(OUT / "chips" / "spikes.csv")
         for k in range(3):
             self.check_spikes(self.js("return corpuscle.monteCarlo[arguments[0]].times", k), expected[f"sa1-circuit#{k + 1}"], f"sa1-circuit chip {k + 1}")
+
+
+    def test_another_simulation_replaces_a_monte_carlo(self):
+        self.js("document.querySelector('.row-card details').open = true; document.getElementById('recordings').open = true")
+        self.until(lambda: self.all("#run-monte-carlo") and self.all("#play-stimulus"))
+        self.js("document.getElementById('run-monte-carlo').click()")
+        self.until(lambda: "of 50" in self.js("return document.querySelector('.monte-carlo').textContent"))
+        self.js("document.getElementById('play-stimulus').click()")
+        WebDriverWait(self.browser, 120).until(lambda _: "spikes" in self.text("recording-status"))
+        self.assertIn("stopped by another simulation", self.js("return document.querySelector('.monte-carlo').textContent"))
+        document = program("respond", "press", "--rate", "2kHz", "--afferent", "sa1-circuit", "--out", OUT / "stimulus", "--overwrite")
+        self.assertTrue(document)
+        self.assertIn(f"sa1-circuit {len(trains(OUT / 'stimulus' / 'spikes.csv')['sa1-circuit'])}", self.text("recording-status"))
 
 
 class Recordings(LivePage):
@@ -226,6 +313,36 @@ class Recordings(LivePage):
         self.load(path)
         self.until(lambda: self.text("recording-status"))
         self.assertNotIn("spikes", self.text("recording-status"))
+
+
+class Served(LivePage):
+    """The page of `corpuscle stream --in page`, whose engine is native."""
+
+    def setUp(self):
+        self.server = subprocess.Popen([CORPUSCLE, "stream", "--in", "page", "--serve", "0"], stderr=subprocess.PIPE, text=True)
+        self.addCleanup(self.server.communicate)
+        self.addCleanup(self.server.terminate)
+        self.browser.get(re.search(r"http://\S+", self.server.stderr.readline())[0] + "#rows=sa1,sa1-circuit&rate=2000&skin=fingertip")
+        WebDriverWait(self.browser, 60).until(lambda _: self.js("return !!window.corpuscle && corpuscle.session.time > 0"))
+
+    def test_spikes_are_saved_as_nwb(self):
+        self.press(0.6)
+        self.pause()
+        csv_file, nwb_file = OUT / "served.csv", OUT / "served.nwb"
+        shutil.copy(self.download("save", "spikes.csv"), csv_file)
+        shutil.copy(self.download("save-nwb", "spikes.nwb"), nwb_file)
+        self.assertGreater(len(trains(csv_file)["sa1-circuit"]), 2)
+        document = program("compare", csv_file, nwb_file)
+        self.assertTrue(all(one["spikes"][0] == one["spikes"][1] and one["unmatched"] == 0 for one in document["trains"]), document)
+
+    def test_a_request_above_the_servers_limit_is_refused(self):
+        path = OUT / "large.csv"
+        path.write_bytes(b"time_s,force_N\n" + b"0.000,0.000000000000000000000000000000000000000000000000\n" * 400_000)
+        self.js("document.getElementById('recordings').open = true")
+        self.until(lambda: self.all("#recording-file"))
+        self.browser.find_element(By.ID, "recording-file").send_keys(str(path))
+        self.until(lambda: "accepts 16 MB" in self.text("recording-status"))
+        self.wait(0.1)
 
 
 class Look(LivePage):

@@ -39,12 +39,17 @@ function colourOf(css: string): Colour {
     return colour;
 }
 
-/// Calls `redraw` when the theme changes, or when the page is printed in the light theme.
-export function onThemeChange(redraw: () => void) {
+/// Calls `redraw` when the theme changes, or when the page is printed in the light theme. Returns a function that ends this.
+export function onThemeChange(redraw: () => void): () => void {
     const renew = () => {
         known.clear();
         redraw();
     };
-    matchMedia("(prefers-color-scheme: dark)").addEventListener("change", renew);
-    new MutationObserver(renew).observe(document.documentElement, {attributeFilter: ["class", "data-theme"]});
+    const scheme = matchMedia("(prefers-color-scheme: dark)"), observer = new MutationObserver(renew);
+    scheme.addEventListener("change", renew);
+    observer.observe(document.documentElement, {attributeFilter: ["class", "data-theme"]});
+    return () => {
+        scheme.removeEventListener("change", renew);
+        observer.disconnect();
+    };
 }

@@ -7,6 +7,7 @@
 #include "io/sandbox/helper_process.hpp"
 #include "io/table/archive.hpp"
 #include "io/text/gzip_text.hpp"
+#include "page/saved_spikes.hpp"
 
 namespace corpuscle {
 namespace {
@@ -55,6 +56,10 @@ bool receive_message(int, std::string&) { return false; }
 
 Result<std::vector<std::complex<double>>> circuit::finite_eigenvalues(const Pencil&) {
     return bad_input("the page has no pole-zero analysis; use `corpuscle run`");
+}
+
+Result<std::string> page::spikes_nwb(const SavedSpikes&, const SavedForce&) {
+    return bad_input("the page cannot write NWB; save CSV, or use the page of `corpuscle stream --serve`");
 }
 
 }  // namespace corpuscle

@@ -59,7 +59,7 @@ export class Charts {
     follow() {
         const {view, session} = this, end = Math.max(session.time, SPAN);
         if (view.a !== this.shown[0] || view.b !== this.shown[1]) this.isFollowing = view.b >= view.end - 1e-9;
-        const length = this.isFollowing ? Math.min(view.b - view.a, SPAN) : 0;
+        const length = view.b - view.a;
         view.setLimits({begin: Math.max(0, end - 60), end, smallest: 0.01}, true);
         if (this.isFollowing) view.set(end - length, end);
         this.shown = [view.a, view.b];

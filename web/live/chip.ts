@@ -7,14 +7,14 @@ import {table} from "../panels/table";
 import {View} from "../plot/view";
 import {LiveTrain, appendSpikes} from "./history";
 import type {Session} from "./session";
-import {engineSettings} from "./settings";
+import {settingTexts} from "./settings";
 
-interface Block { name: string; power: number; nodes: {name: string; voltage: number}[] }
+interface Block { name: string; power: number; nodes: {name: string; voltage: number}[]; devices: {name: string; current: number}[] }
 
-const CHIPS = 50, SLICE = 0.03;  // chips of a Monte Carlo; s for which the engine computes before it answers
+const CHIPS = 50;  // of a Monte Carlo
 
 export class Chip {
-    private summary = h("p", {class: "readout", role: "status"});
+    private summary = h("p", {class: "readout"});
     private drawing = h("div", {class: "schematic", id: "schematic"});
     private block = h("div", {class: "block-state"});
     private blockDrawing = h("div", {class: "schematic"});
@@ -22,6 +22,8 @@ export class Chip {
     private chosen = "";
     private isAsking = false;
     private lastText = "";
+    private view: View | null = null;  // of the Monte Carlo
+    private isRunning = false;         // the Monte Carlo
 
     constructor(private session: Session, private row: number, host: HTMLElement) {
         const run: HTMLButtonElement = h("button", {type: "button", id: "run-monte-carlo", onclick: () => void this.runMonteCarlo(run)}, `Monte Carlo: ${CHIPS} chips under a press`);
@@ -35,7 +37,7 @@ export class Chip {
     private async showSchematic(host: HTMLElement, block: string) {
         const {afferent, set} = this.session.settings.rows[this.row];
         try {
-            const {arrays} = await this.session.engine.request({request: "schematic", afferent, set: engineSettings(set), block});
+            const {arrays} = await this.session.engine.request({request: "schematic", afferent, set: settingTexts(set), block});
             const parsed = new DOMParser().parseFromString(new TextDecoder().decode(arrays.svg), "image/svg+xml").documentElement;
             fill(host, document.importNode(parsed, true));
         } catch (error) {
@@ -51,7 +53,11 @@ export class Chip {
             node.setAttribute("role", "button");
             node.setAttribute("aria-label", `Block ${node.dataset.block}`);
             node.addEventListener("click", choose);
-            node.addEventListener("keydown", (event) => { if (event.key === "Enter") choose(); });
+            node.addEventListener("keydown", (event) => { 
+                if (event.key !== "Enter" && event.key !== " ") return;
+                event.preventDefault();
+                choose();
+            });
         });
     }
 
@@ -81,34 +87,47 @@ export class Chip {
         const block = blocks.find(({name}) => name === this.chosen || `x${name}` === this.chosen) || blocks[0], text = JSON.stringify(block);
         if (!block || text === this.lastText || this.block.contains(document.activeElement)) return;
         this.lastText = text;
-        const rows = block.nodes.map(({name, voltage}) => [name, voltage]);
-        fill(this.block, h("h4", {}, `${block.name || "top level"}: ${quantity(block.power, "W", true)}`),
-            table({name: `nodes of ${block.name || "top level"}`, rows, columns: [{name: "node"}, {name: "voltage (V)", isNumber: true, show: (v) => [quantity(v as number, "V")]}]}));
+        const values = (what: string, heading: string, unit: string, rows: [string, number][]) =>
+            rows.length > 0 && table({name: `${what}s of ${block.name}`, rows, columns: [{name: what}, {name: heading, isNumber: true, show: (v) => [quantity(v as number, unit)]}]});
+        fill(this.block, h("h4", {}, `${block.name}: ${quantity(block.power, "W", true)}`), values("node", "voltage (V)", "V", block.nodes.map(({name, voltage}) => [name, voltage])),
+            values("device", "current (A)", "A", block.devices.map(({name, current}) => [name, current])));
     }
 
     /// Simulates chips that differ by mismatch, and shows their spikes as they come.
     private async runMonteCarlo(button: HTMLButtonElement) {
-        const {engine, settings} = this.session, trains = Array.from({length: CHIPS}, () => new LiveTrain()), say = h("p", {class: "readout", role: "status"});
-        button.disabled = true;
-        fill(this.monteCarlo, say);
+        const {settings} = this.session, trains = Array.from({length: CHIPS}, () => new LiveTrain()), progress = h("p", {class: "readout", role: "status"});
+        const request = {request: "monte-carlo", afferent: this.afferent, set: settingTexts(settings.rows[this.row].set), chips: CHIPS, seed: settings.seed, rate: settings.rate, stimulus: "press"};
+        button.disabled = this.isRunning = true;
+        this.view?.remove();
+        this.view = null;
+        fill(this.monteCarlo, progress);
         try {
-            let answer = await engine.request({request: "monte-carlo", afferent: this.afferent, set: engineSettings(settings.rows[this.row].set), chips: CHIPS, seed: settings.seed, rate: settings.rate, stimulus: "press", slice: SLICE});
-            const {rate, samples, phases = []} = answer.head, clock = {t0: 0, T: 1 / rate, samples}, view = new View();
-            (window as any).corpuscle.monteCarlo = trains;
-            view.setLimits({begin: 0, end: samples / rate, smallest: 0.01});
-            view.add(new RasterPanel({host: this.monteCarlo, name: "monte-carlo", title: [`spikes of ${CHIPS} chips of ${this.afferent}`], about: "spikes of chips that differ by mismatch", height: 320, clock, phases, isNamed: true, isBottom: true, series: [],
-                                      rows: trains.map((spikes, k) => ({series: "", label: `chip ${k + 1}`, colour: "var(--series-2)", spikes}))}));
-            for (;;) {
-                appendSpikes(trains, answer.arrays.unit, answer.arrays.time);
-                const counts = trains.map(({count}) => count), done = answer.head.chips_done;
-                say.textContent = `${done} of ${CHIPS} chips` + (answer.head.done ? `: ${Math.min(...counts)} to ${Math.max(...counts)} spikes` : "");
-                view.request();
-                if (answer.head.done) break;
-                answer = await engine.request({request: "continue", slice: SLICE});
-            }
+            const isDone = await this.session.runJob(request, {}, ({head, arrays}) => {
+                if (!this.view) this.showChips(head, trains);
+                appendSpikes(trains, arrays.unit, arrays.time);
+                const counts = trains.map(({count}) => count);
+                progress.textContent = `${head.chips_done} of ${CHIPS} chips` + (head.done ? `: ${Math.min(...counts)} to ${Math.max(...counts)} spikes` : "");
+                this.view!.request();
+            });
+            if (!isDone) progress.textContent += ", stopped by another simulation";
         } catch (error) {
-            say.textContent = (error as Error).message;
+            progress.textContent = (error as Error).message;
         }
-        button.disabled = false;
+        button.disabled = this.isRunning = false;
+    }
+
+    private showChips({rate, samples, phases = []}: any, trains: LiveTrain[]) {
+        this.view = new View();
+        (window as any).corpuscle.monteCarlo = trains;
+        this.view.setLimits({begin: 0, end: samples / rate, smallest: 0.01});
+        this.view.add(new RasterPanel({host: this.monteCarlo, name: "monte-carlo", title: [`spikes of ${CHIPS} chips of ${this.afferent}`], about: "spikes of chips that differ by mismatch", height: 320,
+                                       clock: {t0: 0, T: 1 / rate, samples}, phases, isNamed: true, isBottom: true, series: [],
+                                       rows: trains.map((spikes, k) => ({series: "", label: `chip ${k + 1}`, colour: "var(--series-2)", spikes}))}));
+    }
+
+    /// Must be called when the chip is removed from the page.
+    close() {
+        if (this.isRunning) this.session.cancelJob();
+        this.view?.remove();
     }
 }

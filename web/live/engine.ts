@@ -7,15 +7,20 @@ export interface Answer { head: any; arrays: Record<string, NumberArray> }
 export interface Engine {
     /// Where it computes, for the reader: "this browser".
     readonly place: string;
+    /// Throws the sentence of an error if a request of so many bytes is too long for it.
+    checkLength(bytes: number): void;
     /// Sends a request. The promise is rejected with the sentence of the engine's error.
     request(head: object, arrays?: Record<string, NumberArray>): Promise<Answer>;
 }
 
 interface Waiting { resolve: (answer: Answer) => void; reject: (error: Error) => void }
 
+const megabytes = (bytes: number) => Math.ceil(bytes / 2 ** 20);
+
 /// Matches answers to requests by their order.
 abstract class QueueEngine implements Engine {
     abstract readonly place: string;
+    protected abstract readonly mostBytes: number;  // of a request
     private waiting: Waiting[] = [];
     private failure: Error | null = null;  // after which no request is answered
 
@@ -23,10 +28,16 @@ abstract class QueueEngine implements Engine {
 
     request(head: object, arrays: Record<string, NumberArray> = {}): Promise<Answer> {
         if (this.failure) return Promise.reject(this.failure);
+        const bytes = bytesOfMessage(head, arrays);
         return new Promise((resolve, reject) => {
+            this.checkLength(bytes.length);
             this.waiting.push({resolve, reject});
-            this.send(bytesOfMessage(head, arrays));
+            this.send(bytes);
         });
+    }
+
+    checkLength(bytes: number) {
+        if (bytes > this.mostBytes) throw new Error(`This has ${megabytes(bytes)} MB; the engine of this page accepts ${megabytes(this.mostBytes)} MB. The command corpuscle respond has no such limit.`);
     }
 
     protected receive(buffer: ArrayBuffer) {
@@ -45,6 +56,7 @@ abstract class QueueEngine implements Engine {
 /// The engine as WebAssembly in a worker, which is made from texts of the page, so that the page opens from disk.
 export class WorkerEngine extends QueueEngine {
     readonly place = "this browser";
+    protected readonly mostBytes = 128 << 20;  // the memory of a page is limited
     private worker: Worker;
 
     /// `script`: the text of the worker; `wasm`: the module.
@@ -66,7 +78,8 @@ export class SocketEngine extends QueueEngine {
     private socket: WebSocket;
     private unsent: Uint8Array[] = [];  // until the connection is open
 
-    constructor(url: string) {
+    /// `mostBytes`: the server closes the connection after a longer message.
+    constructor(url: string, protected readonly mostBytes: number) {
         super();
         this.socket = new WebSocket(url);
         this.socket.binaryType = "arraybuffer";

@@ -11,10 +11,11 @@ declare const DecompressionStream: new (format: string) => GenericTransformStrea
 /// `worker`: the script of the engine's worker; `catalogue`: the engine's answer to the request `catalogue`. The page has the engine, compressed by
 /// gzip, as base64.
 export async function startLivePage(worker: string, catalogue: object) {
-    const isPurpose = (name: string) => document.querySelector(`meta[name=${name}]`) !== null;
+    const served = (name: string) => document.querySelector<HTMLMetaElement>(`meta[name=${name}]`);  // added by the server
     const socket = (path: string) => `${location.protocol.replace("http", "ws")}//${location.host}/${path}${location.search}`;
-    if (isPurpose("corpuscle-stream")) return showStreamPage(socket("stream"));
-    if (isPurpose("corpuscle-engine")) return showLivePage(new SocketEngine(socket("engine")));
+    if (served("corpuscle-stream")) return showStreamPage(socket("stream"));
+    const engine = served("corpuscle-engine");
+    if (engine) return showLivePage(new SocketEngine(socket("engine"), Number(engine.content)));
     const bytes = bytesOf(document.getElementById("engine")!.textContent!);
     const module = await new Response(new Blob([bytes]).stream().pipeThrough(new DecompressionStream("gzip"))).arrayBuffer();
     return showLivePage(new WorkerEngine(worker, module), catalogue);

@@ -1,5 +1,6 @@
 // The live page: a skin to press, the afferents that feel it, and what their nerves and chips do.
 
+import type {NumberArray} from "../base/arrays";
 import {onThemeChange} from "../base/colours";
 import {append, chooser, download, fill, h} from "../base/dom";
 import {quantity} from "../base/text";
@@ -9,38 +10,41 @@ import {copy, folded} from "../shell";
 import {Catalogue, catalogueOf} from "./catalogue";
 import {Charts} from "./charts";
 import type {Engine} from "./engine";
-import {HISTORY} from "./history";
 import {Press, stroke, tap, vibration} from "./press";
 import {Recording} from "./recording";
 import {Rows} from "./rows";
 import {Session} from "./session";
-import {Settings, defaultSettings, putSettingsInLink, settingsOfLink} from "./settings";
+import {SettingQueue, copyOf, defaultSettings, putSettingsInLink, settingsOfLink} from "./settings";
 import {parameterControl} from "./sliders";
 import {Sound} from "./sound";
-import {Stage} from "./stage";
+import {SkinView} from "./skin-view";
 
 const UPDATES = 8;  // of the numbers in the rows, per second
 
 class LivePage {
     private message = h("p", {class: "notes", role: "alert", id: "message", hidden: true});
-    private status = h("span", {class: "readout", id: "status", role: "status"});
+    private status = h("span", {class: "readout", id: "status"});
+    private pause = h("button", {type: "button", id: "pause", title: "Stop and go on", onclick: () => { this.session.isPaused = !this.session.isPaused; }}, "Pause");
     private press = new Press();
     private session: Session;
-    private stage: Stage;
+    private skinView: SkinView;
     private charts: Charts;
     private rows: Rows;
     private sound = new Sound();
+    private nwb = h("button", {type: "button", id: "save-nwb", hidden: true, title: "Save the spikes since the start and the force of the last minute as NWB", onclick: () => void this.saveNwb()}, "Save NWB");
     private skinControls = h("div", {class: "skin-controls"});
     private chartHost = h("div", {class: "charts"});
+    private showForce = () => {};  // on its control; set by forceControl()
     private frames = 0;
     private lastUpdate = 0;
 
-    constructor(engine: Engine, private catalogue: Catalogue, settings: Settings) {
+    constructor(engine: Engine, private catalogue: Catalogue) {
+        const settings = defaultSettings(catalogue);
         this.session = new Session(engine, catalogue, settings, this.press, (text) => this.say(text));
-        this.press.target = settings.force;
-        this.stage = new Stage(this.session, this.press);
+        this.session.heard = (times) => this.sound.play(times, this.session.time);
+        this.skinView = new SkinView(this.session, this.press);
         this.charts = new Charts(this.session, this.chartHost);
-        this.rows = new Rows(this.session, this.charts, () => void this.start(), () => putSettingsInLink(settings));
+        this.rows = new Rows(this.session, this.charts, (change) => void this.restart(change), () => putSettingsInLink(settings));
         this.build(engine);
     }
 
@@ -53,12 +57,12 @@ class LivePage {
     }
 
     private build(engine: Engine) {
-        const main = h("main", {class: "live"}, h("section", {class: "press"}, this.stage.root, this.forceControl(), h("div", {class: "controls"}, this.programmes(), this.skinControls)),
+        const main = h("main", {class: "live"}, h("section", {class: "press"}, this.skinView.root, this.forceControl(), h("div", {class: "controls"}, this.programmes(), this.skinControls)),
             h("section", {class: "responses"}, this.chartHost, this.rows.root));
         append(document.body, h("header", {}, h("h1", {}, "Press a skin"), h("span", {class: "program"}, `corpuscle ${this.catalogue.version}, computed in ${engine.place}`)), this.toolbar(), this.message, main);
         folded(document.body, "recordings", "Replay a recording", "", "", (host) => host.append(new Recording(this.session).root));
         connectKeys(this.charts.view);
-        onThemeChange(() => { this.stage.redraw(); this.charts.view.request(); });
+        onThemeChange(() => { this.skinView.redraw(); this.charts.view.request(); });
     }
 
     private toolbar(): HTMLElement {
@@ -67,37 +71,47 @@ class LivePage {
             return node;
         };
         return h("div", {class: "toolbar", role: "toolbar", "aria-label": "simulation"},
-            button("Pause", "pause", "Stop and go on", (node) => { session.isPaused = !session.isPaused; node.textContent = session.isPaused ? "Go on" : "Pause"; }),
+            this.pause,
             button("Restart", "restart", "Start again from rest", () => void this.start()),
             button("Follow", "follow", "Show the present again", () => this.charts.followAgain()),
             button("Sound off", "sound", "Hear the spikes of the rows", (node) => void this.sound.toggle().then((on) => { node.textContent = on ? "Sound on" : "Sound off"; })),
             button("Copy link", "copy-link", "Copy a link to this page with its settings", (node) => copy(location.href, node)),
-            button("Save spikes", "save", "Save the spikes since the start as CSV", () => void this.save()),
+            button("Save spikes", "save", "Save the spikes since the start as CSV", () => void this.save({format: "csv"})),
+            this.nwb,
             button("Save force", "save-force", "Save the force of the last minute as a recording, which corpuscle respond reads", () => download("force.csv", forceText(session))),
             this.status);
     }
 
-    private async save() {
+    private async saveNwb() {
+        const {first, values} = this.session.recentForce();
+        await this.save({format: "nwb", force_from: first}, {force: values});
+    }
+
+    private async save(how: object, sent: Record<string, NumberArray> = {}) {
         try {
-            const {head, arrays} = await this.session.engine.request({request: "save"});
+            const {head, arrays} = await this.session.engine.request({request: "save", ...how}, sent);
             download(head.name, new Blob([arrays.file]));
+            if (head.dropped) this.say(`${head.name} lacks the first ${head.dropped} spikes, which the engine no longer has.`);
         } catch (error) {
             this.say((error as Error).message);
         }
     }
 
     private forceControl(): HTMLElement {
-        const {press} = this, say = h("output", {}), slider: HTMLInputElement = h("input", {type: "range", id: "force", min: -2, max: 1.3, step: 0.01, "aria-label": "Force of a press", oninput: () => set(10 ** Number(slider.value))});
-        const set = (force: number) => {
-            press.target = this.settings.force = Number(Math.max(0.01, Math.min(20, force)).toPrecision(3));
+        const {press} = this, output = h("output", {}), slider: HTMLInputElement = h("input", {type: "range", id: "force", min: -2, max: 1.3, step: 0.01, "aria-label": "Force of a press", oninput: () => set(10 ** Number(slider.value))});
+        this.showForce = () => {
+            press.target = this.settings.force;
             slider.value = String(Math.log10(press.target));
-            say.textContent = quantity(press.target, "N", true);
+            output.textContent = quantity(press.target, "N", true);
+        };
+        const set = (force: number) => {
+            this.settings.force = Number(Math.max(0.01, Math.min(20, force)).toPrecision(3));
+            this.showForce();
             putSettingsInLink(this.settings);
         };
-        this.stage.changeForce = (factor) => set(press.target * factor);
-        set(press.target);
+        this.skinView.changeForce = (factor) => set(press.target * factor);
         const shear: HTMLInputElement = h("input", {type: "checkbox", id: "shear", onchange: () => { press.hasShear = shear.checked; }});
-        return h("p", {class: "bar"}, h("label", {}, "Force ", slider, " ", say), h("label", {title: "Friction of half the force against a movement"}, shear, " Friction"));
+        return h("p", {class: "bar"}, h("label", {}, "Force ", slider, " ", output), h("label", {title: "The contact pulls the skin along with its movement, with half its force"}, shear, " Friction"));
     }
 
     /// Movements that the page makes by itself.
@@ -115,14 +129,15 @@ class LivePage {
     /// Choosers of skin and indenter, sampling rate, and the sliders of the indenter.
     private showSkinControls() {
         const {catalogue, settings} = this, populations = ["none", ...catalogue.populations.map(({name}) => name)], indenters = catalogue.indenters.map(({name}) => name), rates = [1000, 2000, 5000, 10_000, 20_000];
-        const restart = (change: () => void) => { change(); void this.start(); };
+        const restart = (change: () => void) => void this.restart(change);
         const indenter = catalogue.indenters[Math.max(0, indenters.indexOf(settings.indenter))];
-        const parameters = catalogue.contact.filter(({name}) => indenter.parameters.includes(name));
-        const control = (one: typeof parameters[0]) => parameterControl(one, Number.parseFloat(settings.contact.get(one.name) ?? "") || one.default, (text) => {
-            if (text === null) settings.contact.delete(one.name); else settings.contact.set(one.name, text);
-            putSettingsInLink(settings);
-            void this.session.setContact();
+        const values = this.session.contactValues, parameters = catalogue.contact.filter(({name}) => indenter.parameters.includes(name) && values.has(name));
+        const queue = new SettingQueue(settings.contact, async () => {
+            const isAccepted = await this.session.setContact();
+            if (isAccepted) putSettingsInLink(settings);
+            return isAccepted;
         });
+        const control = (one: typeof parameters[0]) => parameterControl(one, values.get(one.name)!, (text) => queue.change(one.name, text));
         fill(this.skinControls, h("p", {class: "bar"},
             chooser("Skin", populations, Math.max(0, populations.indexOf(settings.population)), (k) => restart(() => { settings.population = k ? populations[k] : ""; })),
             chooser("Indenter", indenters, indenters.indexOf(indenter.name), (k) => restart(() => { settings.indenter = indenters[k]; settings.contact.clear(); })),
@@ -130,15 +145,40 @@ class LivePage {
             h("details", {}, h("summary", {}, "Indenter and contact"), h("div", {class: "parameters"}, ...parameters.map(control))));
     }
 
-    async start() {
-        this.say("");
-        if (!await this.session.start()) return;
-        putSettingsInLink(this.settings);
-        if (this.session.warnings.length) this.say(this.session.warnings.join(" "));
+    /// Starts the simulation with changed settings. If the engine refuses them, they and the simulation stay as they were.
+    private async restart(change: () => void) {
+        const before = copyOf(this.settings);
+        change();
+        if (await this.start()) return;
+        Object.assign(this.settings, before);
         this.showSkinControls();
-        this.stage.renew();
+        this.rows.renew();
+    }
+
+    /// Starts the simulation. Returns false, after a message, if the engine refuses the settings.
+    async start(): Promise<boolean> {
+        this.say("");
+        if (!await this.session.start()) return false;
+        putSettingsInLink(this.settings);
+        this.showForce();
+        if (this.session.warnings.length) this.say(this.session.warnings.join(" "));
+        this.nwb.hidden = !this.session.formats.includes("nwb");
+        this.showSkinControls();
+        this.skinView.renew();
         this.charts.renew();
         this.rows.renew();
+        return true;
+    }
+
+    /// Starts with the settings of the link, or with the defaults if it is damaged or the engine refuses it.
+    async openLink() {
+        const settings = settingsOfLink(this.catalogue);
+        let reason = settings ? "" : "is damaged";
+        Object.assign(this.settings, settings);
+        if (settings && !await this.start()) reason = `is refused (${this.message.textContent})`;
+        if (!reason) return;
+        Object.assign(this.settings, defaultSettings(this.catalogue));
+        if (await this.start()) this.say(`The link of this page ${reason}, so the page starts with its defaults.`);
     }
 
     /// Simulates and draws, once per screen frame.
@@ -147,26 +187,26 @@ class LivePage {
             this.run();
             const {session} = this;
             session.frame(now / 1000);
-            this.stage.draw();
+            this.skinView.draw();
             this.charts.follow();
             ++this.frames;
             if (now - this.lastUpdate < 1000 / UPDATES) return;
             const seconds = (now - this.lastUpdate) / 1000;
             this.status.textContent = `${session.time.toFixed(1)} s, ${Math.round(this.frames / seconds)} frames/s, engine ${session.speed < 10 ? session.speed.toFixed(1) : Math.round(session.speed)} times real time`;
             [this.frames, this.lastUpdate] = [0, now];
+            this.pause.textContent = session.isPaused ? "Go on" : "Pause";
             this.rows.update();
         });
     }
 
     /// For tests.
-    get handles() { return {session: this.session, press: this.press, charts: this.charts, stage: this.stage}; }
+    get handles() { return {session: this.session, press: this.press, charts: this.charts, skinView: this.skinView}; }
 }
 
 /// The force of the session as a recording.
-function forceText({force}: Session): string {
-    const {T, samples} = force.clock, first = Math.max(0, samples - Math.round(HISTORY / T)), rows: [number, number | null][] = [];
-    for (let k = first; k < samples; ++k) rows.push([Number((k * T).toPrecision(12)), force.range(k, k + 1)[0]]);
-    return csvText(["time_s", "force_N"], rows);
+function forceText(session: Session): string {
+    const {first, values} = session.recentForce(), {T} = session.force.clock;
+    return csvText(["time_s", "force_N"], Array.from(values, (force, k) => [Number(((first + k) * T).toPrecision(12)), force]));
 }
 
 /// Starts the page with an engine. `head`: its answer to the request `catalogue`, if it is known already.
@@ -174,11 +214,11 @@ export async function showLivePage(engine: Engine, head?: object) {
     const waiting = h("p", {class: "note", id: "loading"}, "The engine starts …");
     document.body.append(waiting);
     try {
-        const catalogue = catalogueOf(head || (await engine.request({request: "catalogue"})).head), settings = settingsOfLink(catalogue);
+        const catalogue = catalogueOf(head || (await engine.request({request: "catalogue"})).head);
         waiting.remove();
-        const page = new LivePage(engine, catalogue, settings || defaultSettings(catalogue));
-        await page.start();
-        if (!settings) page.say("The link of this page is damaged, so the page starts with its defaults.");
+        const page = new LivePage(engine, catalogue);
+        await page.openLink();
+        addEventListener("hashchange", () => void page.openLink());  // the user has changed the address; setLink() causes no such event
         (window as any).corpuscle = page.handles;
         page.run();
     } catch (error) {

@@ -27,7 +27,7 @@ export class Press {
     play(programme: Programme) { [this.programme, this.played, this.isDown] = [programme, 0, false]; }
     stop() { this.programme = null; }
 
-    /// Force (N), position (m) and shear (N) for the next n samples. The shear is friction against the movement, of half the force.
+    /// Force (N), position (m) and shear (N) for the next n samples. The shear, half the force, pulls the skin along with the movement.
     block(n: number, rate: number): Record<string, Float64Array> {
         const force = new Float64Array(n), x = new Float64Array(n), y = new Float64Array(n), before = [this.lastX, this.lastY];
         for (let k = 0; k < n; ++k) {

@@ -6,7 +6,7 @@ import type {Charts} from "./charts";
 import {Chip} from "./chip";
 import type {Setting} from "./catalogue";
 import type {Session} from "./session";
-import {MAX_ROWS, RowSettings} from "./settings";
+import {MAX_ROWS, SettingQueue} from "./settings";
 import {parameterControl, settingControl} from "./sliders";
 
 const RATE_WINDOW = 0.25;  // s
@@ -18,8 +18,8 @@ export class Rows {
     private open = new Set<number>();  // rows whose details are shown
     private closers: (() => void)[] = [];
 
-    /// `restart`: starts the simulation with the changed settings. `changed`: a setting of a running row has changed.
-    constructor(private session: Session, private charts: Charts, private restart: () => void, private changed: () => void) {}
+    /// `restart`: changes the settings and starts the simulation. `changed`: called when a setting of a running row has changed.
+    constructor(private session: Session, private charts: Charts, private restart: (change: () => void) => void, private changed: () => void) {}
 
     /// Builds the list anew, after a start.
     renew() {
@@ -48,14 +48,12 @@ export class Rows {
     }
 
     private add(afferent: string) {
-        this.session.settings.rows.push({afferent, set: new Map()});
-        this.restart();
+        this.restart(() => this.session.settings.rows.push({afferent, set: new Map()}));
     }
 
     private remove(k: number) {
-        this.session.settings.rows.splice(k, 1);
         this.open.clear();
-        this.restart();
+        this.restart(() => this.session.settings.rows.splice(k, 1));
     }
 
     private card(k: number): HTMLElement {
@@ -71,23 +69,24 @@ export class Rows {
     }
 
     private showDetails(k: number, host: HTMLElement) {
-        const row = this.session.rows[k], settings = this.session.settings.rows[k], described = this.session.catalogue.afferents.find(({name}) => name === row.info.name);
+        const row = this.session.rows[k], {set} = this.session.settings.rows[k], queue = new SettingQueue(set, () => this.send(k)), described = this.session.catalogue.afferents.find(({name}) => name === row.info.name);
         append(host, h("p", {class: "note"}, described ? `${described.description} (${described.composition})` : row.info.composition));
         const probes = h("div", {class: "probes"});
         host.append(probes);
         this.closers.push(this.charts.showProbes(row, probes));
         if (row.info.is_circuit) {
-            this.chips[k] = new Chip(this.session, k, host);
-            void this.chips[k]!.update();
+            const chip = this.chips[k] = new Chip(this.session, k, host);
+            this.closers.push(() => chip.close());
+            void chip.update();
         }
-        append(host, h("h3", {}, "Parameters"), h("div", {class: "parameters"}, ...row.info.parameters.map((one) => parameterControl(one, one.value ?? one.default, (text) => this.set(k, settings, one.name, text)))));
-        if (row.info.is_circuit) void this.showSettings(k, settings, host.appendChild(h("div")));
+        append(host, h("h3", {}, "Parameters"), h("div", {class: "parameters"}, ...row.info.parameters.map((one) => parameterControl(one, one.value ?? one.default, (text) => queue.change(one.name, text)))));
+        if (row.info.is_circuit) void this.showSettings(k, queue, host.appendChild(h("div")));
     }
 
     /// Supply, temperature, corner and sizes of a circuit.
-    private async showSettings(k: number, settings: RowSettings, host: HTMLElement) {
-        const {head} = await this.session.engine.request({request: "settable", afferent: settings.afferent}), all = head.settable as Setting[];
-        const control = (one: Setting) => settingControl(one, settings.set.get(one.name), (text) => this.set(k, settings, one.name, text));
+    private async showSettings(k: number, queue: SettingQueue, host: HTMLElement) {
+        const {afferent, set} = this.session.settings.rows[k], {head} = await this.session.engine.request({request: "settable", afferent}), all = head.settable as Setting[];
+        const control = (one: Setting) => settingControl(one, set.get(one.name), (text) => queue.change(one.name, text));
         const blocks = [...new Set(all.map(({block}) => block || ""))].filter(Boolean);
         append(host, h("h3", {}, "Supply, temperature, corner"), h("div", {class: "parameters"}, ...all.filter(({block}) => !block).map(control)), h("h3", {}, "Sizes of the devices"));
         for (const block of blocks) {
@@ -97,12 +96,9 @@ export class Rows {
         }
     }
 
-    /// Changes a setting; null restores the default. If the engine refuses, the setting stays as it was.
-    private async set(k: number, settings: RowSettings, name: string, text: string | null) {
-        const before = settings.set.get(name);
-        if (text === null) settings.set.delete(name); else settings.set.set(name, text);
-        if (await this.session.setRow(k)) this.changed();
-        else if (before === undefined) settings.set.delete(name);
-        else settings.set.set(name, before);
+    private async send(k: number): Promise<boolean> {
+        const isAccepted = await this.session.setRow(k);
+        if (isAccepted) this.changed();
+        return isAccepted;
     }
 }

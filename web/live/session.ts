@@ -3,10 +3,10 @@
 import {NumberArray, numberedArrays} from "../base/arrays";
 import {variantColour} from "../base/colours";
 import type {Catalogue, Parameter} from "./catalogue";
-import type {Engine} from "./engine";
+import type {Answer, Engine} from "./engine";
 import {HISTORY, LiveCurve, LiveTrain, appendSpikes} from "./history";
 import type {Press} from "./press";
-import {Settings, engineSettings} from "./settings";
+import {Settings, settingTexts} from "./settings";
 
 export interface RowInfo {
     name: string; class: string; composition: string; is_circuit: boolean; probes: {name: string; unit: string}[]; delay: number; parameters: Parameter[];
@@ -27,6 +27,7 @@ export interface Skin {
 
 const PROBE_RATE = 1000;     // values of a probe per second
 const MOST_PENDING = 2;
+const SLICE = 0.03;          // s for which the engine computes a job before it answers
 const LONGEST_BLOCK = 0.05;  // s; if the engine needs longer, the simulation is slower than real time
 
 export class Session {
@@ -36,25 +37,30 @@ export class Session {
     time = 0;       // simulated since the start, s
     speed = 1;      // simulated seconds per second, over about the last second
     contactRadius = 0;  // m
+    contactValues = new Map<string, number>();  // of the parameters that the contact uses, SI
     isPaused = false;
     warnings: string[] = [];
+    formats: string[] = [];  // in which the engine saves spikes
+    heard: (times: number[]) => void = () => {};  // called with the times (s) of new spikes of rows
     private pending = 0;     // blocks that the engine has not answered yet; two keep it busy while an answer is drawn
     private lastAnswer = 0;  // its time, ms
     private simulated = 0;   // recently simulated, s
     private computed = 0;    // s that the engine needed for it
     private isStarting = false;
+    private rate = 1;        // samples per second
+    private job = 0;         // number of the newest one
     private generation = 0;  // answers to a start that has been replaced are ignored
     private lastFrame = 0;
     private due = 0;         // s of simulation that are not requested yet
 
-    /// `failed`: called with the sentence of an error of the engine.
+    /// `failed`: called with the sentence of an error of the engine, and with "" when a change was accepted.
     constructor(readonly engine: Engine, readonly catalogue: Catalogue, public settings: Settings, private press: Press, private failed: (text: string) => void) {}
 
     /// Starts the simulation of the settings. Returns false, and keeps the one before, if the engine refuses.
     async start(): Promise<boolean> {
         const {rate, seed, rows, population, indenter, contact} = this.settings;
-        const request = {request: "start", rate, seed, rows: rows.map(({afferent, set}) => ({afferent, set: engineSettings(set)})),
-                         ...(population ? {skin: {population, indenter, contact: engineSettings(contact)}} : {})};
+        const request = {request: "start", rate, seed, rows: rows.map(({afferent, set}) => ({afferent, set: settingTexts(set)})),
+                         ...(population ? {skin: {population, indenter, contact: settingTexts(contact)}} : {})};
         this.isStarting = true;
         try {
             const {head, arrays} = await this.engine.request(request);
@@ -62,7 +68,9 @@ export class Session {
             this.rows = head.rows.map((info: RowInfo, k: number) => this.emptyRow(info, variantColour(info.class, head.rows.slice(0, k).filter((one: RowInfo) => one.class === info.class).length)));
             this.skin = head.skin ? skinOf(head.skin, arrays) : null;
             this.force = new LiveCurve("force", "N", 1 / rate);
-            [this.time, this.due, this.warnings, this.contactRadius] = [0, 0, head.warnings || [], 0];
+            [this.rate, this.isPaused] = [rate, false];
+            this.setContactValues(head.skin);
+            [this.time, this.due, this.warnings, this.contactRadius, this.formats] = [0, 0, head.warnings || [], 0, head.formats];
             return true;
         } catch (error) {
             this.failed((error as Error).message);
@@ -82,9 +90,10 @@ export class Session {
     /// Replaces the settings of a row while the simulation goes on.
     async setRow(k: number): Promise<boolean> {
         try {
-            const {head} = await this.engine.request({request: "set", row: k, set: engineSettings(this.settings.rows[k].set)});
+            const {head} = await this.engine.request({request: "set", row: k, set: settingTexts(this.settings.rows[k].set)});
             this.rows[k].info = head.row;
             this.rows[k].error = "";
+            this.failed("");
             return true;
         } catch (error) {
             this.failed((error as Error).message);
@@ -92,32 +101,64 @@ export class Session {
         }
     }
 
-    /// Replaces the indenter while the simulation goes on.
-    async setContact() {
+    /// Replaces the indenter while the simulation goes on. Returns false if the engine refuses.
+    async setContact(): Promise<boolean> {
         const {indenter, contact} = this.settings;
         try {
-            await this.engine.request({request: "contact", indenter, set: engineSettings(contact)});
+            const {head} = await this.engine.request({request: "contact", indenter, set: settingTexts(contact)});
+            this.setContactValues(head);
+            this.failed("");
+            return true;
         } catch (error) {
             this.failed((error as Error).message);
+            return false;
         }
+    }
+
+    private setContactValues(head: {contact_parameters: {name: string; value: number}[]} | undefined) {
+        this.contactValues = new Map((head ? head.contact_parameters : []).map(({name, value}) => [name, value]));
+    }
+
+    /// Simulates a complete force: sends a request, and `continue` until it is done; `each` gets the answers. A newer job replaces this one, which
+    /// then returns false.
+    async runJob(head: object, arrays: Record<string, NumberArray>, each: (answer: Answer) => void): Promise<boolean> {
+        const job = ++this.job;
+        let answer = await this.engine.request({...head, slice: SLICE}, arrays);
+        for (;;) {
+            if (job !== this.job) return false;
+            each(answer);
+            if (answer.head.done) return true;
+            answer = await this.engine.request({request: "continue", slice: SLICE});
+        }
+    }
+
+    cancelJob() {
+        ++this.job;
+        void this.engine.request({request: "cancel"});
     }
 
     /// Called at each screen frame with its time (s): requests the samples since the last one, unless the engine has two blocks to do.
     frame(now: number) {
         const passed = Math.min(now - this.lastFrame, 0.25);
         this.lastFrame = now;
-        if (this.isPaused || this.isStarting) return;
+        if (this.isPaused || this.isStarting || this.generation === 0) return;
         this.due = Math.min(this.due + passed, LONGEST_BLOCK);
-        const samples = Math.floor(this.due * this.settings.rate);
+        const samples = Math.floor(this.due * this.rate);
         if (this.pending === MOST_PENDING || samples === 0) return;
-        this.due -= samples / this.settings.rate;
+        this.due -= samples / this.rate;
         void this.advance(samples);
+    }
+
+    /// The force of the last minute: of each sample from number `first` on, N.
+    recentForce(): {first: number; values: Float64Array} {
+        const {clock: {T, samples}} = this.force, first = Math.max(0, samples - Math.round(HISTORY / T));
+        return {first, values: Float64Array.from({length: samples - first}, (_, k) => this.force.range(first + k, first + k + 1)[0] ?? 0)};
     }
 
     get isBusy() { return this.pending > 0; }
 
     private async advance(samples: number) {
-        const {generation} = this, asked = performance.now(), {rate} = this.settings, {force, ...place} = this.press.block(samples, rate);
+        const {generation} = this, asked = performance.now(), {rate} = this, {force, ...place} = this.press.block(samples, rate);
         ++this.pending;
         try {
             const {head, arrays} = await this.engine.request({request: "advance", samples, every: this.every}, this.skin ? {force, ...place} : {force});
@@ -134,9 +175,10 @@ export class Session {
     }
 
     private append(head: any, arrays: Record<string, NumberArray>, force: Float64Array) {
-        this.time = head.to / this.settings.rate;
-        this.force.append(force, head.from / this.settings.rate);
+        this.time = head.to / this.rate;
+        this.force.append(force, head.from / this.rate);
         appendSpikes([...this.rows.map(({train}) => train), ...(this.skin ? this.skin.trains : [])], arrays.unit, arrays.time);
+        this.heard(Array.from(arrays.time || []).filter((_, k) => arrays.unit[k] < this.rows.length));
         head.rows.forEach((one: any, r: number) => {
             const row = this.rows[r];
             [row.power, row.error] = [one.power || 0, one.error || row.error];

@@ -1,4 +1,4 @@
-// The choices of the user: afferents and their settings, skin, indenter. It is kept in the link of the page.
+// The choices of the user: afferents and their settings, skin, indenter. They are kept in the link of the page.
 
 import {linkNumber, linkValues, setLink} from "../base/link";
 import type {Catalogue} from "./catalogue";
@@ -22,9 +22,38 @@ export const defaultSettings = (catalogue: Catalogue): Settings => ({
     rows: ["sa1", "sa1-nerve", "sa1-circuit", "fa1-nerve"].map((afferent) => ({afferent, set: new Map()})),
 });
 
-const settingTexts = (set: Map<string, string>) => Array.from(set, ([name, value]) => `${name}=${value}`);
-/// The settings as the engine takes them: ["f_B=25Hz"].
-export const engineSettings = settingTexts;
+/// Settings as the engine takes them: ["f_B=25Hz"].
+export const settingTexts = (set: Map<string, string>) => Array.from(set, ([name, value]) => `${name}=${value}`);
+
+export const copyOf = (settings: Settings): Settings =>
+    ({...settings, rows: settings.rows.map(({afferent, set}) => ({afferent, set: new Map(set)})), contact: new Map(settings.contact)});
+
+/// Gives changes of a set of settings to the engine, one after the other. A change that the engine refuses is taken back.
+export class SettingQueue {
+    private last: Promise<unknown> = Promise.resolve();
+    private newest = new Map<string, number>();  // number of the newest change of each setting
+
+    /// `send`: gives the set to the engine, and returns false if it refuses.
+    constructor(private set: Map<string, string>, private send: () => Promise<boolean>) {}
+
+    /// Changes a setting; null restores the default. Returns true if the engine has accepted it, and null if a newer change has replaced it.
+    change(name: string, text: string | null): Promise<boolean | null> {
+        const number = (this.newest.get(name) || 0) + 1;
+        this.newest.set(name, number);
+        const isNewest = () => this.newest.get(name) === number;
+        const done = this.last.then(async () => {
+            if (!isNewest()) return null;
+            const before = this.set.get(name);
+            if (text === null) this.set.delete(name); else this.set.set(name, text);
+            const isAccepted = await this.send();
+            if (!isAccepted && before === undefined) this.set.delete(name);
+            else if (!isAccepted) this.set.set(name, before!);
+            return isNewest() || isAccepted ? isAccepted : null;
+        });
+        this.last = done;
+        return done;
+    }
+}
 
 function parsedSettings(texts: string[]): Map<string, string> | null {
     const out = new Map<string, string>();
@@ -39,6 +68,7 @@ function parsedSettings(texts: string[]): Map<string, string> | null {
 /// The rows of a link: "sa1~f_B=25Hz,sa1-circuit".
 function parsedRows(text: string, catalogue: Catalogue): RowSettings[] | null {
     const rows: RowSettings[] = [];
+    if (text === "none") return rows;
     for (const part of text.split(",").filter(Boolean)) {
         const [afferent, ...rest] = part.split("~"), set = parsedSettings(rest);
         if (!set || !catalogue.afferents.some(({name}) => name === afferent)) return null;
@@ -60,13 +90,13 @@ export function settingsOfLink(catalogue: Catalogue): Settings | null {
     const contact = parsedSettings((values.get("contact") || "").split("~").filter(Boolean));
     const skin = values.get("skin") ?? out.population, indenter = values.get("indenter") ?? out.indenter;
     const isKnown = (skin === "" || skin === "none" || catalogue.populations.some(({name}) => name === skin)) && catalogue.indenters.some(({name}) => name === indenter);
-    const isForeign = [...values.keys()].some((name) => !["rate", "seed", "force", "rows", "contact", "skin", "indenter"].includes(name));
+    const hasUnknownKey = [...values.keys()].some((name) => !["rate", "seed", "force", "rows", "contact", "skin", "indenter"].includes(name));
     Object.assign(out, {rate: number("rate", 500, 100_000, out.rate), seed: number("seed", 0, 2 ** 53, out.seed), force: number("force", 0, 100, out.force)});
-    if (!rows || !contact || !isKnown || isForeign || [out.rate, out.seed, out.force].some(Number.isNaN)) return null;
+    if (!rows || !contact || !isKnown || hasUnknownKey || [out.rate, out.seed, out.force].some(Number.isNaN)) return null;
     return {...out, rows, contact, population: skin === "none" ? "" : skin, indenter};
 }
 
 export function putSettingsInLink({rate, seed, force, rows, population, indenter, contact}: Settings) {
     setLink({rate, seed, force, skin: population || "none", indenter, contact: settingTexts(contact).join("~"),
-             rows: rows.map(({afferent, set}) => [afferent, ...settingTexts(set)].join("~")).join(",")});
+             rows: rows.map(({afferent, set}) => [afferent, ...settingTexts(set)].join("~")).join(",") || "none"});
 }

@@ -23,18 +23,26 @@ const valueOf = ({low, high, isLog}: SliderScale, position: number) => Number((i
 const rangeText = ({low, high, unit}: Parameter) =>
     low === null && high === null ? "any value" : low === null ? `at most ${quantity(high, unit, true)}` : high === null ? `at least ${quantity(low, unit, true)}` : `${quantity(low, unit, true)} to ${quantity(high, unit, true)}`;
 
-/// A control for one parameter. `change` is called with the value as the engine reads it ("25Hz"), or null for the default.
-export function parameterControl(parameter: Parameter, value: number, change: (text: string | null) => void): HTMLElement {
+/// Changes a setting to a text as the engine reads it ("25Hz"), or to its default; see SettingQueue.change().
+export type Change = (text: string | null) => Promise<boolean | null>;
+
+/// A control for one parameter. After a refused change it shows the last value that the engine has accepted.
+export function parameterControl(parameter: Parameter, value: number, change: Change): HTMLElement {
     const scale = scaleOf(parameter), unit = unitText(parameter.unit);
-    const say = (v: number) => change(v === parameter.default ? null : shortest(v).replace("−", "-") + unit);
-    const number: HTMLInputElement = h("input", {type: "number", step: "any", value, min: parameter.low, max: parameter.high, "aria-label": `${parameter.name} in ${unit || "1"}`, onchange: () => set(Number(number.value))});
-    const slider: HTMLInputElement | null = scale && h("input", {type: "range", min: 0, max: STEPS, value: positionOf(scale, value), "aria-label": parameter.name, oninput: () => set(valueOf(scale, Number(slider!.value)))});
-    const reset = h("button", {type: "button", title: `Default: ${quantity(parameter.default, parameter.unit, true)}`, "aria-label": `Default of ${parameter.name}`, onclick: () => set(parameter.default)}, "↺");
-    const set = (v: number) => {
-        if (!Number.isFinite(v)) return;
+    let accepted = value;
+    const number: HTMLInputElement = h("input", {type: "number", step: "any", value, min: parameter.low, max: parameter.high, "aria-label": `${parameter.name} in ${unit || "1"}`, onchange: () => void set(number.value.trim() ? Number(number.value) : NaN)});
+    const slider: HTMLInputElement | null = scale && h("input", {type: "range", min: 0, max: STEPS, value: positionOf(scale, value), "aria-label": parameter.name, oninput: () => void set(valueOf(scale, Number(slider!.value)))});
+    const reset = h("button", {type: "button", title: `Default: ${quantity(parameter.default, parameter.unit, true)}`, "aria-label": `Default of ${parameter.name}`, onclick: () => void set(parameter.default)}, "↺");
+    const show = (v: number) => {
         number.value = String(v);
         if (slider && scale) slider.value = String(positionOf(scale, v));
-        say(v);
+    };
+    const set = async (v: number) => {
+        show(Number.isFinite(v) ? v : accepted);
+        if (!Number.isFinite(v)) return;
+        const isAccepted = await change(v === parameter.default ? null : shortest(v).replace("−", "-") + unit);
+        if (isAccepted) accepted = v;
+        else if (isAccepted === false) show(accepted);
     };
     return h("div", {class: "parameter", "data-parameter": parameter.name, title: `${parameter.description} (${rangeText(parameter)}). ${parameter.source || ""}`},
         h("span", {class: "parameter-name"}, ...symbol(parameter.name)), slider || h("span"), number, h("span", {class: "unit"}, unit), reset,
@@ -42,12 +50,17 @@ export function parameterControl(parameter: Parameter, value: number, change: (t
 }
 
 /// A control for a setting of a circuit that is not a parameter: supply, temperature, corner, size of an array.
-export function settingControl(setting: Setting, value: string | undefined, change: (text: string | null) => void): HTMLElement {
+export function settingControl(setting: Setting, value: string | undefined, change: Change): HTMLElement {
     const {name, kind, unit, choices = [], description} = setting, current = value ?? String(setting.value);
-    const say = (text: string) => change(text === String(setting.value) ? null : text);
+    let accepted = current;
+    const set = async (text: string) => {
+        const isAccepted = await change(text === String(setting.value) ? null : text);
+        if (isAccepted) accepted = text;
+        else if (isAccepted === false) field.value = accepted;
+    };
     const field: HTMLInputElement | HTMLSelectElement = kind === "choice"
-        ? h("select", {"aria-label": name, onchange: () => say(field.value)}, ...choices.map((text) => h("option", {selected: text === current}, text)))
-        : h("input", {type: "text", value: current, size: 8, "aria-label": name, onchange: () => say(field.value)});
+        ? h("select", {"aria-label": name, onchange: () => void set(field.value)}, ...choices.map((text) => h("option", {selected: text === current}, text)))
+        : h("input", {type: "text", value: current, size: 8, "aria-label": name, onchange: () => void set(field.value)});
     return h("div", {class: "parameter", "data-parameter": name, title: description}, h("span", {class: "parameter-name"}, name), h("span"), field, h("span", {class: "unit"}, unitText(unit)), h("span"),
         h("small", {class: "parameter-about"}, description));
 }

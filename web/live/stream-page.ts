@@ -9,7 +9,7 @@ import {SkinMap} from "../skin/skin-map";
 import {Charts, LiveSource} from "./charts";
 import {HISTORY, LiveCurve, appendSpikes} from "./history";
 import {Skin, skinOf} from "./session";
-import {geometryOf, glowing} from "./stage";
+import {geometryOf, recentSpikes} from "./skin-view";
 
 class StreamPage implements LiveSource {
     rows = [];
@@ -21,8 +21,8 @@ class StreamPage implements LiveSource {
     private lost = {frames: 0, spikes: 0, messages: 0};
     private spikes = 0;
     private state = "connecting";
-    private status = h("span", {class: "readout", id: "status", role: "status"});
-    private mapHost = h("div", {class: "stage-map"});
+    private status = h("span", {class: "readout", id: "status"});
+    private mapHost = h("div", {class: "skin-view-map"});
     private chartHost = h("div", {class: "charts"});
     private scene: SkinScene | null = null;
     private charts = new Charts(this, this.chartHost);
@@ -30,7 +30,7 @@ class StreamPage implements LiveSource {
     constructor(url: string) {
         append(document.body, h("header", {}, h("h1", {id: "title"}, "Stream"), h("span", {class: "program", id: "description"})),
             h("div", {class: "toolbar"}, h("button", {type: "button", id: "follow", onclick: () => this.charts.followAgain()}, "Follow"), this.status),
-            h("main", {class: "live"}, h("section", {class: "press"}, h("div", {class: "stage", id: "stage"}, this.mapHost)), h("section", {class: "responses"}, this.chartHost)));
+            h("main", {class: "live"}, h("section", {class: "press"}, h("div", {class: "skin-view", id: "skin-view"}, this.mapHost)), h("section", {class: "responses"}, this.chartHost)));
         connectKeys(this.charts.view);
         onThemeChange(() => { this.scene?.renew(); this.charts.view.request(); });
         new ResizeObserver(() => this.resize()).observe(this.mapHost);
@@ -58,7 +58,7 @@ class StreamPage implements LiveSource {
         this.mapHost.parentElement!.hidden = new Set(this.skin.siteX).size < 2 && new Set(this.skin.siteY).size < 2;
         this.scene = new SkinScene(geometryOf(this.skin, 0), (draw) => this.siteForce.forEach((newtons, site) => draw(site, newtons / this.most)));
         new SkinMap(this.scene, {host: this.mapHost, name: "skin", title: [], about: "the skin, the force on it, and its active afferents", classes: this.skin.classes.map((_, k) => k), hasRings: true,
-                                 activity: (draw) => glowing(this.skin!, this.time).forEach(([mark, level]) => draw(mark, level))});
+                                 activity: (draw) => recentSpikes(this.skin!, this.time).forEach(([mark, level]) => draw(mark, level))});
         this.resize();
         this.charts.renew();
     }

@@ -111,7 +111,8 @@ export class RasterPanel<R extends Row = Row> extends RowsPanel<R> {
         const k = spikes.nearest(this.valueAt(x)), t = spikes.times[k], name = about || label;
         if (k < 0 || Math.abs(this.x(t) - x) > 6) return {x, y, text: name};
         const interval = k > 0 ? `, ${quantity(t - spikes.times[k - 1], "s")} after the one before` : "";
-        return {x: this.x(t), y, text: `${name}: spike ${k + 1} of ${spikes.count} at ${fixedText(t, 1e-6)}${interval}`};
+        const number = k + 1 + spikes.count - spikes.times.length;  // a live train forgets its first spikes
+        return {x: this.x(t), y, text: `${name}: spike ${number} of ${spikes.count} at ${fixedText(t, 1e-6)}${interval}`};
     }
 
     csv() {

@@ -17,11 +17,19 @@ export class View {
     private isCursorWaiting = false;
     private listeners: (() => void)[] = [];
     private cursorListeners: (() => void)[] = [];
+    private ended = new AbortController();  // of the window's events
 
     /// `unit`: of x, "s" for time.
     constructor(readonly unit = "s") {
-        addEventListener("beforeprint", () => this.draw());
-        addEventListener("afterprint", () => this.request());
+        const {signal} = this.ended;
+        addEventListener("beforeprint", () => this.draw(), {signal});
+        addEventListener("afterprint", () => this.request(), {signal});
+    }
+
+    /// Removes all panels from the page, for good.
+    remove() {
+        this.clear();
+        this.ended.abort();
     }
 
     /// Sets the range that can be shown. `keep`: keep the visible range and the cursor, else show everything.

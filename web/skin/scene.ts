@@ -21,6 +21,8 @@ export class SkinScene {
     private cy = 0;
     private isWaiting = false;
     readonly surface: Surface;
+    /// Must be called when the maps are removed from the page.
+    readonly remove: () => void;
 
     /// `force`: the force on the sites.
     constructor(readonly geometry: SkinGeometry, force: Levels = () => {}) {
@@ -28,7 +30,7 @@ export class SkinScene {
         const contents = [boxOf(geometry.marks), ...geometry.outline.map((one) => boxOf(one))].reduce(joined, grown(sites, geometry.side / 2));
         this.all = this.box = grown(contents, 0.03 * Math.max(contents[2] - contents[0], contents[3] - contents[1]));
         this.surface = new Surface(this, force);
-        onThemeChange(() => this.renew());
+        this.remove = onThemeChange(() => this.renew());
     }
 
     /// The radius of an active mark, pixels: equal on all maps.

@@ -98,7 +98,7 @@ export class SkinMap {
         this.paintActive(pen, (stamps, level, x, y) => this.dots!.add(stamps.imageOf(level), x * ratio, y * ratio));
         this.dots.draw(pen, ratio);
         this.paintRing(pen);
-        canvas.style.touchAction = scene.isComplete ? "pan-x pan-y" : "none";  // one finger pans a zoomed map
+        canvas.style.touchAction = scene.isComplete && this.options.hasPointer !== false ? "pan-x pan-y" : "none";  // one finger pans a zoomed map
         if (this.options.drawn) this.options.drawn(this);
     }
 

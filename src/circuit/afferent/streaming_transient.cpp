@@ -125,6 +125,8 @@ OperatingState StreamingTransient::operating_state() const {
     for (std::size_t k = 0; k < names.size(); ++k) out.sources.push_back({names[k], power.sources[k], currents[k]});
     const auto& blocks = meter_->blocks().names;
     for (std::size_t k = 0; k < blocks.size(); ++k) out.blocks.push_back({blocks[k], power.blocks[k]});
+    for (auto& device : meter_->device_currents(x, transient_->time()))
+        out.blocks[device.block].devices.push_back({std::move(device.name), device.current});
     const auto& nodes = system.circuit().nodes;  // the first is ground
     for (std::size_t k = 1; k < nodes.size() && k <= static_cast<std::size_t>(system.nodes()); ++k) {
         const auto block = Blocks::name_of_node(nodes[k]);

@@ -151,6 +151,14 @@ std::vector<double> PowerMeter::source_currents(std::span<const double> x, doubl
     return out;
 }
 
+std::vector<PowerMeter::DeviceCurrent> PowerMeter::device_currents(std::span<const double> x, double t) const {
+    std::vector<DeviceCurrent> out;
+    double power = 0;
+    for (std::size_t k = 0; k < role_.size(); ++k)
+        if (role_[k] < 0) out.push_back({system_.devices()[k]->name, static_cast<std::size_t>(-1 - role_[k]), current(k, x, t, power)});
+    return out;
+}
+
 Result<void> PowerOverTime::begin(const Plot&) {
     sums_.assign(phases_.size() + 1, {});
     times_.assign(phases_.size() + 1, 0);

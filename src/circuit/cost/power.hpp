@@ -57,6 +57,13 @@ public:
     std::vector<std::string> sources() const;  ///< names of the sources
     /// The current into the first terminal of each source, A.
     std::vector<double> source_currents(std::span<const double> x, double t) const;
+    /// The current (A) into the first terminal of a device that is not a source, and the index of its block.
+    struct DeviceCurrent {
+        std::string name;
+        std::size_t block = 0;
+        double current = 0;
+    };
+    std::vector<DeviceCurrent> device_currents(std::span<const double> x, double t) const;
     double supply() const { return supply_; }  ///< V: voltage of the voltage source that delivers the most power at the operating point
     bool has_sensor() const { return !sensors_.empty(); }
 };

@@ -90,7 +90,8 @@ class PageConnection : public std::enable_shared_from_this<PageConnection> {
     std::deque<Outgoing> queue_;                                                 // the first is being written
     std::int64_t lost_messages_ = 0, lost_spikes_ = 0;                           // since the last notice
     std::int64_t last_received_ = now_ns(), write_begin_ = 0, close_begin_ = 0;  // ns; 0: no write, not closing
-    bool is_ping_sent_ = false, is_computing_ = false, is_viewer_ = false;
+    bool is_ping_sent_ = false, is_viewer_ = false;
+    bool is_computing_ = false, is_answering_ = false;  // the page is not read
     RateLimit requests_, control_frames_{20, 40};
     websocket::close_reason close_reason_;
     std::shared_ptr<PageSession> session_;
@@ -114,6 +115,10 @@ public:
     /// Sends a close frame after the messages that wait.
     void close(websocket::close_code, std::string_view reason);
     void disconnect(websocket::close_code code, std::string_view reason) { ++server_.counts.disconnected, close(code, reason); }
+    /// Ends the request that a session computes.
+    void stop_session() {
+        if (session_) session_->stop();
+    }
     /// Disconnects the page if it is silent or stuck; called once a second.
     void check(std::int64_t now);
     bool is_viewer() const { return is_viewer_; }

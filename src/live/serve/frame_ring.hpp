@@ -43,10 +43,10 @@ class FrameRing final : public FrameObserver {
     void read(void* to, std::size_t bytes);
 
 public:
-    /// `sites`: of the stream. `rate`: of its frames, Hz. Pages see forces at most as often as force_interval() says, and all spikes.
+    /// `sites`: of the stream. `rate`: of its frames, Hz. Pages see the forces of each force_interval()-th frame, and all spikes.
     FrameRing(std::size_t sites, double rate, std::size_t min_bytes = std::size_t{4} << 20);
 
-    /// Every how many frames the forces are passed on: at least 60 times a second, more often if there are few sites.
+    /// The forces of every n-th frame are passed on; returns n. These are 60 a second or more, unless there are fewer frames.
     static std::int64_t force_interval(std::size_t sites, double rate);
     std::int64_t force_interval() const { return frames_per_force_; }
 

@@ -267,7 +267,10 @@ public:
         net::post(io_, [this, &last_message, patience] {
             begin_stop(std::move(last_message));
             stop_timer_.expires_after(patience);
-            stop_timer_.async_wait([this](error_code) { io_.stop(); });
+            stop_timer_.async_wait([this](error_code) {
+                for (const auto& page : copy_of_pages()) page->stop_session();
+                io_.stop();
+            });
         });
         thread_.join();
         if (workers_) workers_->stop(), workers_->join();

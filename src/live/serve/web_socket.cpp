@@ -92,7 +92,8 @@ void PageConnection::handle_message() {
     read();
 }
 
-/// Answers the message in in_ in a thread of the pool. The next one is read when its answer has been queued.
+/// Answers the message in in_ in a thread of the pool. The next one is read when its answer has been sent, so that a page that does not
+/// accept answers cannot ask for more.
 void PageConnection::compute() {
     is_computing_ = true;
     net::post(*server_.workers, [self = shared_from_this()]() mutable {
@@ -107,11 +108,12 @@ void PageConnection::compute() {
 void PageConnection::answer(Result<std::vector<std::byte>> answer) {
     is_computing_ = false, last_received_ = now_ns();
     in_.clear();
-    if (answer)
-        queue(std::make_shared<const std::vector<std::byte>>(*std::move(answer)), 0);
-    else
+    if (!answer) {
         disconnect(websocket::close_code::internal_error, answer.error().message);
-    read();
+        return read();
+    }
+    is_answering_ = true;
+    queue(std::make_shared<const std::vector<std::byte>>(*std::move(answer)), 0);
 }
 
 void PageConnection::send(const Message& message, std::int64_t spikes) {
@@ -141,6 +143,7 @@ void PageConnection::write() {
         ++self->server_.counts.messages;
         self->queue_.pop_front();
         if (!self->queue_.empty()) return self->write();
+        if (std::exchange(self->is_answering_, false)) self->last_received_ = now_ns(), self->read();
         if (self->close_begin_ != 0) self->send_close();
     });
 }
@@ -161,16 +164,19 @@ void PageConnection::send_close() {
 void PageConnection::drop() {
     beast::get_lowest_layer(socket_).close();
     delay_.cancel();
+    stop_session();
     server_.remove(shared_from_this());
 }
 
 void PageConnection::check(std::int64_t now) {
     const bool is_closed_late = close_begin_ != 0 && now - close_begin_ > in_ns(closing_timeout);
     const bool is_stuck = write_begin_ != 0 && now - write_begin_ > in_ns(write_timeout);
-    const bool is_silent = !is_computing_ && now - last_received_ > 2 * in_ns(ping_after);
+    const bool is_silent = !is_computing_ && !is_answering_ && now - last_received_ > 2 * in_ns(ping_after);
     if (is_closed_late) return drop();
     if (is_stuck || is_silent) return ++server_.counts.disconnected, drop();
-    if (is_computing_ || is_ping_sent_ || close_begin_ != 0 || now - last_received_ < in_ns(ping_after) || !socket_.is_open()) return;
+    if (is_computing_ || is_answering_ || is_ping_sent_ || close_begin_ != 0 || now - last_received_ < in_ns(ping_after) ||
+        !socket_.is_open())
+        return;
     is_ping_sent_ = true;
     socket_.async_ping({}, [self = shared_from_this()](error_code) {});
 }

@@ -1,5 +1,6 @@
 // The page server with real sockets: HTTP, WebSockets, and clients that break the rules.
 
+#include <atomic>
 #include <condition_variable>
 #include <mutex>
 #include <thread>
@@ -44,27 +45,34 @@ std::unique_ptr<PageServer> start(PageServerOptions options) {
 
 constexpr const char* no_server = "this build has no page server (libboost-dev)";
 
-/// A session that answers each request with its number and its text; "fail" ends it, and "wait" waits until release() is called.
+constexpr std::size_t large_answer = std::size_t{1} << 20;  // bytes
+
+/// A session that answers each request with its number and its text; "fail" ends it, "large" has a large answer, and "wait" waits until the
+/// session is stopped.
 class EchoSession final : public PageSession {
     int count_ = 0;
-    static inline std::mutex mutex_;
-    static inline std::condition_variable released_;
-    static inline bool is_released_ = false;
+    std::mutex mutex_;
+    std::condition_variable stopped_;
+    bool is_stopped_ = false;
 
 public:
+    static inline std::atomic<int> large_answers = 0;
+
     Result<std::vector<std::byte>> request(std::span<const std::byte> bytes) override {
         const std::string text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
         if (text == "fail") return bad_input("the test wants it to fail");
         if (text == "wait") {
             std::unique_lock lock(mutex_);
-            released_.wait(lock, [] { return is_released_; });
+            stopped_.wait(lock, [this] { return is_stopped_; });
         }
-        return message_of({{"number", ++count_}, {"text", text}});
+        auto answer = message_of({{"number", ++count_}, {"text", text}});
+        if (text == "large") ++large_answers, answer.resize(large_answer);
+        return answer;
     }
-    static void release() {
+    void stop() override {
         const std::lock_guard lock(mutex_);
-        is_released_ = true;
-        released_.notify_all();
+        is_stopped_ = true;
+        stopped_.notify_all();
     }
 };
 
@@ -237,7 +245,10 @@ TEST(PageServer, DisconnectsPagesThatBreakTheProtocol) {
         {gigabyte, 1009, "a length of a gigabyte"},
         {client_frame(0x82, std::string(70000, 'x')), 1009, "a message above the limit"},
         {client_frame(0x02, std::string(60000, 'x')) + client_frame(0x80, std::string(10000, 'x')), 1009, "fragments above the limit"},
-        {std::string("\x82\xff\0\0\0\0\0\0\0\x01mask" "x", 15), 1002, "a length in more bytes than it needs"},
+        {std::string("\x82\xff\0\0\0\0\0\0\0\x01mask"
+                     "x",
+                     15),
+         1002, "a length in more bytes than it needs"},
         {client_frame(0xc2, "x"), 1002, "a compressed message"},
         {client_frame(0x82, "x", false), 1002, "a message without a mask"},
         {client_frame(0x80, "x"), 1002, "a continuation of nothing"},
@@ -311,9 +322,31 @@ TEST(PageServer, EndsWhileASessionComputes) {
     page.send(client_frame(0x82, "wait"));
     std::thread ending([&] { server->finish({}, std::chrono::milliseconds(50)); });
     EXPECT_EQ(page.close_code(), 1001);
-    EchoSession::release();
-    ending.join();
+    ending.join();  // after the session was stopped
     server.reset();
+}
+
+TEST(PageServer, ComputesNothingForAPageThatLeavesItsAnswers) {
+    const auto server = start(session_options());
+    if (!server) GTEST_SKIP() << no_server;
+    PageClient page(server->port(), "127.0.0.1", 65536);
+    ASSERT_EQ(page.open("", "/engine"), 101);
+    page.next();
+    constexpr int requests = 40;
+    for (int k = 0; k < requests; ++k) page.send(client_frame(0x82, "large"));
+    const int before = EchoSession::large_answers;
+    int answers = -1;
+    for (int k = 0; k < 100 && answers != EchoSession::large_answers; ++k) {
+        answers = EchoSession::large_answers;
+        std::this_thread::sleep_for(std::chrono::milliseconds(100));
+    }
+    EXPECT_LT(answers - before, 10) << "the system's buffers have room for a few";
+    for (int k = 1; k <= requests; ++k) {
+        const auto answer = page.next();
+        ASSERT_TRUE(answer);
+        EXPECT_EQ(head_of(answer->data)["number"], k);
+        EXPECT_EQ(answer->data.size(), large_answer);
+    }
 }
 
 TEST(PageServer, AClientThatLeavesInTheMiddleHarmsNothing) {

@@ -43,12 +43,12 @@ Result<std::string> find_page() {
 
 }  // namespace
 
-Result<std::string> load_live_page(std::string_view purpose) {
+Result<std::string> load_live_page(std::string_view purpose, std::size_t max_request) {
     constexpr std::string_view head = "<head>";
     auto page = TRY(find_page());
     const auto at = page.find(head);
     if (page.find(purpose) == page.npos || at == page.npos) return std::string(page_in_place_of_it);
-    page.insert(at + head.size(), fmt::format("<meta name=\"{}\">", purpose));
+    page.insert(at + head.size(), fmt::format("<meta name=\"{}\" content=\"{}\">", purpose, max_request));
     return page;
 }
 

@@ -31,6 +31,7 @@ public:
             return bad_input("the request needs more memory than there is");
         }
     }
+    void stop() override { engine_.stop(); }
 };
 
 /// Starts a server, and prints the addresses of its page. These lines are printed with --quiet, too: they alone have the token, and the
@@ -65,9 +66,9 @@ Result<void> check_page_options(const StreamArguments& args, const CommonArgumen
 
 Result<std::unique_ptr<StreamPage>> StreamPage::start(const StreamArguments& args, const SkinStream& skin) {
     auto out = std::make_unique<StreamPage>();
-    out->page_ = TRY(load_live_page("corpuscle-stream"));
-    out->ring_ = std::make_unique<FrameRing>(skin.sites(), skin.clock().rate());
     PageServerOptions options;
+    out->page_ = TRY(load_live_page("corpuscle-stream", options.max_request));
+    out->ring_ = std::make_unique<FrameRing>(skin.sites(), skin.clock().rate());
     options.page = out->page_, options.frames = out->ring_.get();
     options.max_viewers = args.max_viewers.value_or(default_viewers);
     options.greeting = encode_stream_greeting(skin, out->ring_->force_interval());
@@ -106,7 +107,7 @@ nlohmann::ordered_json page_document(const PageServerCounts& counts) {
 }
 
 Result<void> run_page_sessions(const StreamArguments& args, const CommonArguments& common) {
-    const auto text = TRY(load_live_page("corpuscle-engine"));
+    const auto text = TRY(load_live_page("corpuscle-engine", max_session_request));
     PageServerOptions options;
     options.page = text;
     options.max_viewers = args.max_viewers.value_or(default_sessions);

@@ -9,18 +9,18 @@ import {SkinMap} from "../skin/skin-map";
 import type {Press} from "./press";
 import type {Session, Skin} from "./session";
 
-const GLOW = 0.15;  // s for which a spike is shown
+const SPIKE_SHOWN = 0.15;  // s for which a spike is shown
 
-export class Stage {
+export class SkinView {
     readonly root: HTMLElement;
-    private host = h("div", {class: "stage-map"});
-    private readout = h("p", {class: "readout", id: "stage-readout"});
+    private host = h("div", {class: "skin-view-map"});
+    private readout = h("p", {class: "readout", id: "skin-readout"});
     private scene: SkinScene | null = null;
     private active: [number, number][] = [];  // mark, level
 
     constructor(private session: Session, private press: Press) {
         const help = "Skin. Press with the pointer, or hold the space bar; Enter presses until Enter. Arrow keys move, with Shift faster; + and − change the force.";
-        this.root = h("div", {class: "stage", tabindex: 0, role: "application", "aria-label": help, id: "stage"}, this.host, this.readout,
+        this.root = h("div", {class: "skin-view", tabindex: 0, role: "application", "aria-label": help, id: "skin-view"}, this.host, this.readout,
             h("p", {class: "hint"}, h("span", {class: "for-mouse"}, "Press and move. Wheel: force. Keys: hold space or Enter, arrows, + −."), h("span", {class: "for-touch"}, "Press with a finger, and move it.")));
         this.connectKeys();
         new ResizeObserver(() => this.resize()).observe(this.host);
@@ -40,7 +40,7 @@ export class Stage {
         canvas.addEventListener("pointermove", (event) => { if (press.isDown) follow(event); });
         for (const end of ["pointerup", "pointercancel", "lostpointercapture"]) canvas.addEventListener(end, () => { press.isDown = false; });
         canvas.addEventListener("wheel", (event) => {
-            if (!press.isDown && !this.root.contains(document.activeElement)) return;
+            if (!press.isDown) return;
             event.preventDefault();
             this.changeForce(event.deltaY < 0 ? 1.1 : 1 / 1.1);
         }, {passive: false});
@@ -57,13 +57,14 @@ export class Stage {
             " ": () => { press.stop(); press.isDown = true; }, Enter: (event) => { if (!event.repeat) press.isDown = !press.isDown; },
         };
         this.root.addEventListener("keydown", (event) => {
-            if (event.ctrlKey || event.altKey || event.metaKey || !keys[event.key]) return;
+            const isInMenu = (event.target as Element).closest(".menu") !== null;
+            if (isInMenu || event.ctrlKey || event.altKey || event.metaKey || !keys[event.key]) return;
             event.preventDefault();
             event.stopPropagation();
             keys[event.key](event);
         });
         this.root.addEventListener("keyup", (event) => { if (event.key === " ") press.isDown = false; });
-        this.root.addEventListener("blur", () => { press.isDown = false; });
+        this.root.addEventListener("focusout", () => { press.isDown = false; });
     }
 
     /// Draws the skin anew, after a start. The press moves to its middle.
@@ -71,6 +72,7 @@ export class Stage {
         const {skin} = this.session;
         this.host.replaceChildren();
         this.root.hidden = !skin;
+        this.scene?.remove();
         this.scene = null;
         if (!skin) return;
         this.scene = new SkinScene(geometryOf(skin, this.session.rows.length));
@@ -92,7 +94,7 @@ export class Stage {
     draw() {
         const {skin, time} = this.session;
         if (!skin || !this.scene) return;
-        this.active = glowing(skin, time);
+        this.active = recentSpikes(skin, time);
         this.scene.draw();
         this.readout.textContent = `${quantity(this.press.force, "N", true)} at ${quantity(this.press.x, "m", true)}, ${quantity(this.press.y, "m", true)}`;
     }
@@ -118,11 +120,11 @@ export function geometryOf(skin: Skin, firstUnit: number): SkinGeometry {
 }
 
 /// The marks of the afferents that have just fired, and how bright they are.
-export function glowing({trains}: Skin, now: number): [number, number][] {
+export function recentSpikes({trains}: Skin, now: number): [number, number][] {
     const out: [number, number][] = [];
     trains.forEach(({times}, mark) => {
-        const age = times.length ? now - times[times.length - 1] : GLOW;
-        if (age < GLOW) out.push([mark, 1 - Math.max(0, age) / GLOW]);
+        const age = times.length ? now - times[times.length - 1] : SPIKE_SHOWN;
+        if (age < SPIKE_SHOWN) out.push([mark, 1 - Math.max(0, age) / SPIKE_SHOWN]);
     });
     return out;
 }
