@@ -5,7 +5,7 @@
 
 #include "io/sandbox/helper_process.hpp"
 #include "page/documents.hpp"
-#include "page/saved_spikes.hpp"
+#include "page/save/saved_spikes.hpp"
 
 namespace corpuscle::page {
 namespace {

@@ -5,7 +5,7 @@
 
 #include "page/pressed_skin.hpp"
 #include "page/row.hpp"
-#include "page/saved_spikes.hpp"
+#include "page/save/saved_spikes.hpp"
 
 namespace corpuscle::page {
 

@@ -211,7 +211,7 @@ class Settings(LivePage):
 class Controls(LivePage):
     ROWS = "sa1"
 
-    def test_the_spikes_of_rows_are_heard(self):
+    def test_the_spikes_of_rows_make_sound(self):
         self.js("""corpuscle.clicks = 0;
             const start = AudioBufferSourceNode.prototype.start;
             AudioBufferSourceNode.prototype.start = function (...when) { ++corpuscle.clicks; return start.apply(this, when); };""")
@@ -257,7 +257,8 @@ class Chip(LivePage):
         self.assertGreater(len(self.all(".block-state tbody tr")), 1)
 
     def test_a_monte_carlo_has_the_chips_of_the_program(self):
-        self.start(f"#rows={self.ROWS}&seed=1")
+        self.start(f"#rows={self.ROWS}&seed=1&skin=none")
+        self.pause()  # the engine has only these chips to simulate
         self.js("document.querySelector('.row-card details').open = true")
         self.until(lambda: self.all("#run-monte-carlo"))
         self.js("document.getElementById('run-monte-carlo').click()")
@@ -290,6 +291,7 @@ class Recordings(LivePage):
         self.browser.find_element(By.ID, "recording-file").send_keys(str(path))
 
     def test_a_recording_gives_the_spikes_of_the_program(self):
+        self.pause()
         self.load(ROOT / "examples" / "data" / "touch.csv")
         WebDriverWait(self.browser, 120).until(lambda _: "spikes" in self.text("recording-status"))
         document = program("respond", "examples/data/touch.csv", "--afferent", self.ROWS, "--out", OUT / "touch", "--overwrite")
@@ -333,7 +335,8 @@ class Served(LivePage):
         shutil.copy(self.download("save-nwb", "spikes.nwb"), nwb_file)
         self.assertGreater(len(trains(csv_file)["sa1-circuit"]), 2)
         document = program("compare", csv_file, nwb_file)
-        self.assertTrue(all(one["spikes"][0] == one["spikes"][1] and one["unmatched"] == 0 for one in document["trains"]), document)
+        differences = [(one["a"], one["missing"], one["extra"], one["max_shift_s"]) for one in document["pairs"]]
+        self.assertEqual([one for one in differences if one[1] + one[2] > 0 or (one[3] or 0) > 1e-9], [])  # CSV has times in ns
 
     def test_a_request_above_the_servers_limit_is_refused(self):
         path = OUT / "large.csv"
@@ -348,10 +351,12 @@ class Served(LivePage):
 class Look(LivePage):
     def test_four_sizes_in_two_themes(self):
         for width, height in SIZES:
+            self.start("", width=width, height=height)
+            self.js("corpuscle.press.isDown = true")
+            self.wait(0.7)
             for is_dark in (False, True):
-                self.start("", width=width, height=height, is_dark=is_dark)
-                self.js("corpuscle.press.isDown = true")
-                self.wait(1)
+                self.set_theme(is_dark)
+                self.wait(0.1)
                 overflow = self.js("return document.documentElement.scrollWidth - document.documentElement.clientWidth")
                 self.browser.save_screenshot(str(OUT / f"live-{width}{'-dark' if is_dark else ''}.png"))
                 self.assertLessEqual(overflow, 0, (width, is_dark))

@@ -7,7 +7,7 @@
 #include "io/sandbox/helper_process.hpp"
 #include "io/table/archive.hpp"
 #include "io/text/gzip_text.hpp"
-#include "page/saved_spikes.hpp"
+#include "page/save/saved_spikes.hpp"
 
 namespace corpuscle {
 namespace {

@@ -41,7 +41,7 @@ class LivePage {
     constructor(engine: Engine, private catalogue: Catalogue) {
         const settings = defaultSettings(catalogue);
         this.session = new Session(engine, catalogue, settings, this.press, (text) => this.say(text));
-        this.session.heard = (times) => this.sound.play(times, this.session.time);
+        this.session.newSpikes = (times) => this.sound.play(times, this.session.time);
         this.skinView = new SkinView(this.session, this.press);
         this.charts = new Charts(this.session, this.chartHost);
         this.rows = new Rows(this.session, this.charts, (change) => void this.restart(change), () => putSettingsInLink(settings));

@@ -41,7 +41,7 @@ export class Session {
     isPaused = false;
     warnings: string[] = [];
     formats: string[] = [];  // in which the engine saves spikes
-    heard: (times: number[]) => void = () => {};  // called with the times (s) of new spikes of rows
+    newSpikes: (times: number[]) => void = () => {};  // called with the times (s) of new spikes of rows
     private pending = 0;     // blocks that the engine has not answered yet; two keep it busy while an answer is drawn
     private lastAnswer = 0;  // its time, ms
     private simulated = 0;   // recently simulated, s
@@ -178,7 +178,7 @@ export class Session {
         this.time = head.to / this.rate;
         this.force.append(force, head.from / this.rate);
         appendSpikes([...this.rows.map(({train}) => train), ...(this.skin ? this.skin.trains : [])], arrays.unit, arrays.time);
-        this.heard(Array.from(arrays.time || []).filter((_, k) => arrays.unit[k] < this.rows.length));
+        this.newSpikes(Array.from(arrays.time || []).filter((_, k) => arrays.unit[k] < this.rows.length));
         head.rows.forEach((one: any, r: number) => {
             const row = this.rows[r];
             [row.power, row.error] = [one.power || 0, one.error || row.error];

@@ -1,7 +1,7 @@
 #include <map>
 
 #include "core/text/csv_field.hpp"
-#include "page/saved_spikes.hpp"
+#include "page/save/saved_spikes.hpp"
 #include "run/sinks/spike_lines.hpp"
 
 namespace corpuscle::page {

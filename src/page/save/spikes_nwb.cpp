@@ -5,7 +5,7 @@
 #include <limits>
 
 #include "core/version.hpp"
-#include "page/saved_spikes.hpp"
+#include "page/save/saved_spikes.hpp"
 #include "page/temporary_directory.hpp"
 #include "run/afferent_details.hpp"
 #include "run/skin/skin_population.hpp"
