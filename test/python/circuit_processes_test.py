@@ -3,6 +3,8 @@
 import concurrent.futures
 import io
 import multiprocessing
+import os
+import pathlib
 import signal
 import subprocess
 import sys
@@ -46,22 +48,29 @@ class Threads(unittest.TestCase):
         self.assertGreater(sum(start < t < stop for t in ticks), 5)
 
 
+def processor_seconds(pid):
+    """The processor time of a process so far. Unlike the time of a clock, it does not depend on other processes."""
+    fields = pathlib.Path(f"/proc/{pid}/stat").read_text().rsplit(")", 1)[1].split()
+    return (int(fields[11]) + int(fields[12])) / os.sysconf("SC_CLK_TCK")
+
+
 class Processes(unittest.TestCase):
     def test_a_fork_after_a_run_simulates(self):
         expected = [voltage(r) for r in (1000, 2000)]
         with multiprocessing.get_context("fork").Pool(2) as pool:
             self.assertEqual(pool.map(voltage, (1000, 2000)), expected)
 
-    def test_ctrl_c_stops_within_a_fifth_of_a_second(self):
+    def test_after_ctrl_c_it_computes_for_at_most_a_fifth_of_a_second(self):
         program = ("import corpuscle\ncircuit = corpuscle.circuit('sa1-circuit')\nprint('ready', flush=True)\n"
-                   "try:\n    circuit.tran('1m', '1000')\nexcept KeyboardInterrupt:\n    print('stopped', flush=True)\n")
-        with subprocess.Popen([sys.executable, "-c", program], stdout=subprocess.PIPE, text=True) as child:
+                   "try:\n    circuit.tran('1m', '1000')\nexcept KeyboardInterrupt:\n    print('stopped', flush=True)\n    input()\n")
+        with subprocess.Popen([sys.executable, "-c", program], stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True) as child:
             self.assertEqual(child.stdout.readline(), "ready\n")
             time.sleep(0.5)
-            start = time.monotonic()
+            start = processor_seconds(child.pid)
             child.send_signal(signal.SIGINT)
             self.assertEqual(child.stdout.readline(), "stopped\n")
-            self.assertLess(time.monotonic() - start, 0.2)
+            self.assertLess(processor_seconds(child.pid) - start, 0.2)
+            child.communicate("\n")
 
 
 class Progress(unittest.TestCase):

@@ -158,6 +158,12 @@ def missing_values(browser):
     return re.findall(r".{0,40}(?:undefined|NaN|\[object ).{0,40}", text)
 
 
+def overfull_bars(browser):
+    """Bars of controls that are smaller than their contents, which then lie over what follows."""
+    return browser.execute_script("""return [...document.querySelectorAll(".bar, .toolbar")].filter((one) => one.getClientRects().length > 0)
+        .filter((one) => one.scrollHeight > one.clientHeight + 3 || one.scrollWidth > one.clientWidth + 3).map((one) => one.textContent)""")
+
+
 class Page(unittest.TestCase):
     """A browser with one report open. No test may cause a message in the console or show a missing value."""
 
@@ -180,6 +186,7 @@ class Page(unittest.TestCase):
         # This advice of Chromium concerns only this test, which reads pixels.
         self.assertEqual([text for text in console_messages if "willReadFrequently" not in text], [])
         self.assertEqual(missing_values(self.browser), [])
+        self.assertEqual(overfull_bars(self.browser), [])
 
     def js(self, script, *arguments):
         return self.browser.execute_script(script, *arguments)

@@ -25,6 +25,7 @@ class Pages(unittest.TestCase):
         console_messages = [one["message"] for one in self.browser.get_log("browser") if one["level"] != "INFO"]
         self.assertEqual([text for text in console_messages if "willReadFrequently" not in text], [])
         self.assertEqual(missing_values(self.browser), [])
+        self.assertEqual(overfull_bars(self.browser), [])
 
     def open(self, path, link="", width=1400, height=900, is_dark=False):
         """Shows a page on a screen of this size and waits until its panels are drawn."""
@@ -87,6 +88,7 @@ class Pages(unittest.TestCase):
                 at = f"{name}, {width} x {height}, {'dark' if is_dark else 'light'}"
                 self.assertLessEqual(self.js("return document.documentElement.scrollWidth"), width, at)
                 self.assertEqual(self.js(OVERLAPS), [], at)
+                self.assertEqual(overfull_bars(self.browser), [], at)
                 self.browser.save_screenshot(str(OUT / f"{name}-{width}{'-dark' if is_dark else ''}.png"))
 
     def assert_contrast(self, path):

@@ -354,6 +354,7 @@ class OnASkin(SkinPage):
             with self.screen(width, height, ratio):
                 for theme in self.themes():
                     self.assertLessEqual(self.js("return document.documentElement.scrollWidth"), width)
+                    self.assertEqual(overfull_bars(self.browser), [])
                     self.browser.save_screenshot(str(OUT / f"skin-{width}-{theme}.png"))
                     # on a telephone, one map is swiped to the next, so the first must be complete
                     right = self.js("return document.querySelector('.skin-map').getBoundingClientRect().right")

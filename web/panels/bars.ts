@@ -9,6 +9,6 @@ const percentage = (fraction: number) => `${(100 * Math.min(1, Math.max(0, fract
 /// A bar for a fraction from 0 to 1. Screen readers skip it, because its number is in the table.
 export function fractionBar({value, low, high}: Estimate): HTMLElement {
     const hasInterval = low !== null && high !== null;
-    return h("span", {class: "bar", "aria-hidden": "true"}, h("span", {class: "full", style: `width: ${percentage(value || 0)}`}),
+    return h("span", {class: "fraction-bar", "aria-hidden": "true"}, h("span", {class: "full", style: `width: ${percentage(value || 0)}`}),
         hasInterval ? h("span", {class: "whisker", style: `left: ${percentage(low!)}; width: ${percentage(high! - low!)}`}) : null);
 }
