@@ -21,5 +21,8 @@ endif()
 add_library(corpuscle_cold_code INTERFACE)
 target_compile_definitions(corpuscle_cold_code INTERFACE _GLIBCXX_ASSERTIONS)
 target_compile_options(corpuscle_cold_code INTERFACE $<$<CONFIG:Release>:-O1>)
+if(CORPUSCLE_SANITIZE)
+  target_compile_options(corpuscle_cold_code INTERFACE -O0)  # optimised, it takes three times as long to compile
+endif()
 # Resolve addresses of other libraries at start and make them read-only. No executable stack.
 target_link_options(corpuscle_hardened INTERFACE LINKER:-z,relro,-z,now,-z,noexecstack)

@@ -38,12 +38,7 @@ Json populations_document() {
 
 Json indenters_document() {
     auto out = Json::array();
-    for (const auto& indenter : indenters) {
-        Json row = {{"name", indenter.name}, {"description", indenter.description}, {"parameters", Json::array()}};
-        for (const auto parameter : indenter.parameters)
-            if (!parameter.empty()) row["parameters"].push_back(parameter);
-        out.push_back(std::move(row));
-    }
+    for (const auto& indenter : indenters) out.push_back({{"name", indenter.name}, {"description", indenter.description}});
     return out;
 }
 

@@ -19,15 +19,19 @@ Result<void> refuse_population_path(const std::string& population) {
         fmt::format("'{}' is the path of a file; the page has the populations of the catalogue, such as fingertip", population));
 }
 
-/// "radius=5mm" as an override with the target "contact". The movement is the page's, so those of a path are refused.
+/// The parameters of position and movement, which are the page's.
+bool is_of_movement(std::string_view name) {
+    return name == "x" || name == "y" || name == "x1" || name == "y1" || name == "t_start" || name == "t_move";
+}
+
+/// "radius=5mm" as an override with the target "contact".
 Result<std::vector<ParameterOverride>> contact_overrides(std::span<const std::string> set) {
     std::vector<ParameterOverride> out;
     for (const auto& setting : set) {
         auto parsed = TRY(parse_override("contact." + setting));
         parsed.typed = setting;
-        for (const std::string_view name : {"x", "y", "x1", "y1", "t_start", "t_move"})
-            if (parsed.parameter == name)
-                return bad_input(fmt::format("{}: the position of the contact is that of each request `advance`", setting));
+        if (is_of_movement(parsed.parameter))
+            return bad_input(fmt::format("{}: the position of the contact is that of each request `advance`", setting));
         out.push_back(std::move(parsed));
     }
     return out;
@@ -136,16 +140,23 @@ void PressedSkin::describe(MessageWriter& answer, std::size_t first_unit) const 
 }
 
 Json PressedSkin::contact_parameters() const {
+    std::vector<std::pair<std::string, double>> values;
+    for (const auto& entry : contact_->metadata())
+        if (auto name = entry.name.substr(entry.name.find('.') + 1); !is_of_movement(name))
+            values.emplace_back(std::move(name), entry.value);
+    // The metadata leave these out if they are 0. The speed is that of ridges through a patch that rests.
+    for (const std::string_view name : {"tilt", "azimuth", "speed"})
+        if (std::none_of(values.begin(), values.end(), [&](const auto& value) { return value.first == name; }) &&
+            (name != "speed" || indenter_ == "grating"))
+            values.emplace_back(name, 0);
     auto out = Json::array();
-    for (const auto& entry : contact_->metadata()) {
-        constexpr std::string_view target = "contact.";
-        out.push_back({{"name", entry.name.substr(target.size())}, {"value", entry.value}});
-    }
+    for (const auto& [name, value] : values) out.push_back({{"name", name}, {"value", value}});
     return out;
 }
 
 Result<void> PressedSkin::change_contact(const std::string& indenter, std::span<const std::string> set, const Clock& clock) {
     contact_ = TRY(make_page_contact(indenter, set, innervation().plan.sites, clock));
+    indenter_ = indenter;
     return {};
 }
 

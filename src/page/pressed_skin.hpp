@@ -18,7 +18,7 @@ struct SkinRequest {
 Result<SkinRequest> read_skin_request(ObjectReader&);
 
 class PressedSkin {
-    std::string population_;
+    std::string population_, indenter_;
     std::unique_ptr<Skin> skin_;
     std::unique_ptr<Contact> contact_;
     std::vector<std::string> warnings_;
@@ -37,7 +37,7 @@ public:
 
     /// Adds the description of the skin, and its arrays, to an answer. `first_unit`: unit number of the first afferent.
     void describe(MessageWriter& answer, std::size_t first_unit) const;
-    /// The parameters that the contact uses: [{"name", "value"}].
+    /// The parameters that can be set for this indenter: [{"name", "value"}].
     Json contact_parameters() const;
     /// Replaces the indenter.
     Result<void> change_contact(const std::string& indenter, std::span<const std::string> set, const Clock&);

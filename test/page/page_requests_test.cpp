@@ -174,7 +174,14 @@ TEST(PageRequests, TheIndenterChangesWhileTheSimulationGoesOn) {
     ask_well(engine, R"({"request": "start", "rate": 1000, "skin": {"population": "fingertip"}})");
     const auto answer = ask_well(engine, R"({"request": "contact", "indenter": "grating", "set": ["period=2mm"]})");
     EXPECT_NE(answer["contact"].get<std::string>().find("grating with a ridge every 2 mm"), std::string::npos) << answer["contact"];
+    EXPECT_EQ((*find_named(answer["contact_parameters"], "period"))["value"], 2e-3);
+    EXPECT_EQ((*find_named(answer["contact_parameters"], "speed"))["value"], 0);
+    EXPECT_EQ(find_named(answer["contact_parameters"], "x"), nullptr) << "the position is the page's";
     ask_well(engine, R"({"request": "advance", "samples": 100, "force": 1, "shear_x": 0.2, "shear_y": 0})");
+    const auto flat = ask_well(engine, R"({"request": "contact", "indenter": "flat", "set": ["tilt=20"]})");
+    EXPECT_EQ((*find_named(flat["contact_parameters"], "tilt"))["value"], 20);
+    for (const char* absent : {"E_star", "speed"}) EXPECT_EQ(find_named(flat["contact_parameters"], absent), nullptr) << absent;
+    ask_well(engine, R"({"request": "contact", "indenter": "grating"})");
     EXPECT_EQ(ask(engine, R"({"request": "contact", "indenter": "grating", "set": ["x=2mm"]})").error(),
               "x=2mm: the position of the contact is that of each request `advance`");
 }

@@ -17,7 +17,7 @@ export interface Catalogue {
     version: string;
     afferents: Afferent[];
     populations: {name: string; description: string; afferents: number}[];
-    indenters: {name: string; description: string; parameters: string[]}[];
+    indenters: {name: string; description: string}[];
     contact: Parameter[];
     stimuli: Entry[];
 }

@@ -130,8 +130,7 @@ class LivePage {
     private showSkinControls() {
         const {catalogue, settings} = this, populations = ["none", ...catalogue.populations.map(({name}) => name)], indenters = catalogue.indenters.map(({name}) => name), rates = [1000, 2000, 5000, 10_000, 20_000];
         const restart = (change: () => void) => void this.restart(change);
-        const indenter = catalogue.indenters[Math.max(0, indenters.indexOf(settings.indenter))];
-        const values = this.session.contactValues, parameters = catalogue.contact.filter(({name}) => indenter.parameters.includes(name) && values.has(name));
+        const values = this.session.contactValues, parameters = catalogue.contact.filter(({name}) => values.has(name));
         const queue = new SettingQueue(settings.contact, async () => {
             const isAccepted = await this.session.setContact();
             if (isAccepted) putSettingsInLink(settings);
@@ -140,7 +139,7 @@ class LivePage {
         const control = (one: typeof parameters[0]) => parameterControl(one, values.get(one.name)!, (text) => queue.change(one.name, text));
         fill(this.skinControls, h("p", {class: "bar"},
             chooser("Skin", populations, Math.max(0, populations.indexOf(settings.population)), (k) => restart(() => { settings.population = k ? populations[k] : ""; })),
-            chooser("Indenter", indenters, indenters.indexOf(indenter.name), (k) => restart(() => { settings.indenter = indenters[k]; settings.contact.clear(); })),
+            chooser("Indenter", indenters, indenters.indexOf(settings.indenter), (k) => restart(() => { settings.indenter = indenters[k]; settings.contact.clear(); })),
             chooser("Samples per second", rates.map(String), rates.indexOf(settings.rate), (k) => restart(() => { settings.rate = rates[k]; }))),
             h("details", {}, h("summary", {}, "Indenter and contact"), h("div", {class: "parameters"}, ...parameters.map(control))));
     }

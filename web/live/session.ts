@@ -37,7 +37,7 @@ export class Session {
     time = 0;       // simulated since the start, s
     speed = 1;      // simulated seconds per second, over about the last second
     contactRadius = 0;  // m
-    contactValues = new Map<string, number>();  // of the parameters that the contact uses, SI
+    contactValues = new Map<string, number>();  // of the parameters that can be set for the indenter, SI
     isPaused = false;
     warnings: string[] = [];
     formats: string[] = [];  // in which the engine saves spikes

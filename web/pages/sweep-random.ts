@@ -38,7 +38,7 @@ const PROBABILITIES: [number, string][] = [[-4.2649, "0.001 %"], [-3.0902, "0.1 
 
 export function showNormalPlot(host: Element, sweep: Sweep, choice: Choice) {
     const plots = sweep.data.normal_plots[choice.measure][choice.grouping], xAxis = sweep.measureAxis(choice.measure), names = groupNames(sweep, choice);
-    const curves = plots.map(({values, scores}, k): Curve => ({name: names[k], label: plots.length > 1 ? [names[k]] : [], ...seriesStyle(k, "points"), style: "points", x: numbersOf(values), y: numbersOf(scores)}));
+    const curves = plots.map(({values, scores}, k): Curve => ({name: names[k], label: [plots.length > 1 ? names[k] : "items"], ...seriesStyle(k, "points"), style: "points", x: numbersOf(values), y: numbersOf(scores)}));
     if (curves.reduce((sum, {x}) => sum + x.length, 0) < 3) return;
     const {mean, sigma} = sweep.summary.all.measures[choice.measure];
     if (curves.length === 1 && mean.value !== null && sigma.value)
