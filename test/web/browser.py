@@ -103,25 +103,26 @@ def si(text):
     return float(number.replace("−", "-")) * PREFIX[prefix]
 
 
+def packed_number(source):
+    """The next number of an iterator over bytes, which has seven bits in each byte."""
+    n, shift = 0, 0
+    for byte in source:
+        n, shift = n | (byte & 127) << shift, shift + 7
+        if byte < 128:
+            return n
+
+
 def frames(record):
     """The nonzero values of a map: for each frame, {position: value}."""
     source, all_frames = iter(base64.b64decode(record["data"]["u8"])), []
-
-    def number():
-        n, shift = 0, 0
-        for byte in source:
-            n, shift = n | (byte & 127) << shift, shift + 7
-            if byte < 128:
-                return n
-
     for _ in range(record["count"]):
         position, frame = 0, {}
         while position < record["places"]:
             byte = next(source)
             if byte == 0:
-                position += number()
+                position += packed_number(source)
                 continue
-            frame[position] = byte if byte < 255 else number()
+            frame[position] = byte if byte < 255 else packed_number(source)
             position += 1
         all_frames.append(frame)
     return all_frames

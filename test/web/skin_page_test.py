@@ -11,18 +11,11 @@ def spikes_of(record, t0):
     """The spikes of a page of a skin: {afferent: times}."""
     source, out, afferent = iter(base64.b64decode(record["data"]["u8"])), {}, 0
 
-    def number():
-        n, shift = 0, 0
-        for byte in source:
-            n, shift = n | (byte & 127) << shift, shift + 7
-            if byte < 128:
-                return n
-
     for _ in range(record["trains"]):
-        afferent += number()
-        count, ticks, times = number(), 0, []
+        afferent += packed_number(source)
+        count, ticks, times = packed_number(source), 0, []
         for _ in range(count):
-            ticks += number()
+            ticks += packed_number(source)
             times.append(t0 + ticks * record["tick"])
         out[afferent] = times
         afferent += 1
