@@ -20,10 +20,15 @@ FLAGS = ("--headless=new --no-sandbox --disable-gpu --disable-quic --no-first-ru
 
 # The force, spikes and rates of a response, or the maps and figures of a skin.
 RESPONSE = """
-    document.querySelectorAll('.menu, .hint').forEach((one) => one.remove());
-    const isSkin = document.querySelector('#maps') !== null, kept = isSkin ? ['maps', 'plots'] : ['first'];
+    document.querySelectorAll('.menu, .hint, .toolbar, details.fold').forEach((one) => one.remove());
+    const isSkin = document.querySelector('#maps') !== null, kept = isSkin ? ['maps', 'plots'] : ['figures'];
     for (const other of document.querySelectorAll('main > *')) other.hidden = !kept.includes(other.id);
-    document.querySelector('main').style.padding = '0 12px';"""
+    document.querySelector('main').style.padding = '0 12px';
+    if (isSkin) {
+        const {view} = corpuscle;
+        document.querySelectorAll('.bar .chooser, .bar .buttons').forEach((one) => one.remove());
+        view.point(view.begin + 0.45 * (view.end - view.begin));  // the maps show the middle
+    }"""
 
 # The plots of a study whose title contains a text, in two columns: the first half of them is in the left one.
 STUDY = """
