@@ -1,6 +1,6 @@
 #pragma once
-// Parts of the C++20 library that the libc++ of Debian 12's emscripten (version 13) does not have. Included before every file. Only the
-// forms that src/ uses are here; a newer library has them all, and then this file defines nothing.
+// Parts of the C++20 library that the libc++ of Debian's emscripten (version 13 of Debian 12, 18 of Debian 13) does not have. Included before
+// every file. Only the forms that src/ uses are here; a newer library has them all, and then this file defines nothing.
 
 #include <bit>
 #include <version>
@@ -15,6 +15,8 @@ constexpr To bit_cast(const From& from) noexcept {
 #endif
 
 #if defined(_LIBCPP_VERSION) && _LIBCPP_VERSION < 15000
-#include "old_from_chars.hpp"
 #include "old_ranges.hpp"
+#endif
+#if defined(_LIBCPP_VERSION) && _LIBCPP_VERSION < 200000
+#include "old_from_chars.hpp"
 #endif
