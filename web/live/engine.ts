@@ -90,6 +90,6 @@ export class SocketEngine extends QueueEngine {
 
     protected send(bytes: Uint8Array) {
         if (this.socket.readyState === WebSocket.CONNECTING) this.unsent.push(bytes);
-        else this.socket.send(bytes);
+        else if (this.socket.readyState === WebSocket.OPEN) this.socket.send(bytes);  // else onclose follows
     }
 }
