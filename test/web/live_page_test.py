@@ -300,6 +300,17 @@ class Recordings(LivePage):
         for name in self.ROWS.split(","):
             self.assertIn(f"{name} {expected.get(name, 0)}", self.text("recording-status"))
 
+    def test_a_recording_without_times_needs_its_rate(self):
+        path = OUT / "untimed.csv"
+        path.write_text("fz\n" + "".join(f"{100 * min(k / 100, 3)}\n" for k in range(500)))
+        self.load(path)
+        self.until(lambda: "--rate" in self.text("recording-status"))
+        self.browser.find_element(By.ID, "recording-rate").send_keys("500Hz")
+        self.browser.find_element(By.ID, "recording-scale").send_keys("0.01")
+        self.load(path)
+        WebDriverWait(self.browser, 60).until(lambda _: "spikes" in self.text("recording-status"))
+        self.assertIn("1 s", self.text("recording-status"))
+
     def test_names_in_a_recording_stay_text(self):
         path = OUT / ("<img src=x onerror=document.title=1>.csv".replace("/", ""))
         path.write_text("time_s,\"" + PAYLOAD.replace('"', '""') + " (N)\",second (N)\n" + "".join(f"{k / 100},{k % 7 / 10},0\n" for k in range(100)))

@@ -15,9 +15,15 @@ export class Recording {
     private result = h("div");
     private status = h("p", {class: "readout", role: "status", id: "recording-status"});
     private view: View | null = null;
+    private rate: HTMLInputElement = h("input", {type: "text", id: "recording-rate", size: 8, placeholder: "1kHz"});
+    private scale: HTMLInputElement = h("input", {type: "text", id: "recording-scale", size: 8, placeholder: "1"});
 
     constructor(private session: Session) {
-        const file: HTMLInputElement = h("input", {type: "file", id: "recording-file", "aria-label": "Recording", onchange: () => { if (file.files![0]) void this.load(file.files![0]); }});
+        const file: HTMLInputElement = h("input", {type: "file", id: "recording-file", "aria-label": "Recording", onchange: () => {
+            const chosen = file.files![0];
+            if (chosen) void this.load(chosen);
+            file.value = "";  // so that the same file can be chosen again
+        }});
         const names = session.catalogue.stimuli.map(({name}) => name);
         const runStimulus = (name: string) => {
             fill(this.result);
@@ -27,6 +33,7 @@ export class Recording {
         const stimulus = chooser("or a stimulus", names, chosen, (k) => runStimulus(names[chosen = k]));
         const play = h("button", {type: "button", id: "play-stimulus", onclick: () => runStimulus(names[chosen])}, "Play");
         append(this.root, h("p", {}, h("label", {}, "Recording ", file), " ", stimulus, " ", play),
+            h("p", {class: "bar"}, h("label", {title: "--rate: for a file without a column of times"}, "Rate ", this.rate), h("label", {title: "--scale: newtons per unit of the file"}, "Scale ", this.scale), "Set these before you choose the file."),
             h("p", {class: "note"}, `A table of forces (CSV and other formats of the command line). It is read and simulated by ${session.engine.place}; it is not sent anywhere else.`), this.status, this.result);
         this.root.addEventListener("dragover", (event) => event.preventDefault());
         this.root.addEventListener("drop", (event) => {
@@ -39,7 +46,8 @@ export class Recording {
     private async load(file: File) {
         try {
             this.session.engine.checkLength(file.size);
-            const answer = await this.session.engine.request({request: "read", name: file.name}, {file: new Uint8Array(await file.arrayBuffer())});
+            const typed = Object.entries({rate: this.rate.value.trim(), scale: this.scale.value.trim()}).filter(([, text]) => text);
+            const answer = await this.session.engine.request({request: "read", name: file.name, options: Object.fromEntries(typed)}, {file: new Uint8Array(await file.arrayBuffer())});
             this.showChannels(answer, file.name);
         } catch (error) {
             this.status.textContent = (error as Error).message;
