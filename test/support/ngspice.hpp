@@ -33,7 +33,7 @@ inline std::vector<std::string> deck_names(const std::string& folder = "") {
 /// Runs ngspice on the deck with this path and returns its standard output and error. Unless `raw` is empty, ngspice writes its curves to
 /// the file of this path. It runs in `folder`.
 inline std::string run_ngspice(const std::string& deck, const std::string& raw, const std::string& folder = ".") {
-    const auto command = "cd '" + folder + "' && OMP_NUM_THREADS=1 ngspice -b " + (raw.empty() ? "" : "-r " + raw + " ") + deck + " 2>&1";
+    const auto command = "cd '" + folder + "' && OMP_THREAD_LIMIT=1 ngspice -b " + (raw.empty() ? "" : "-r " + raw + " ") + deck + " 2>&1";
     std::FILE* pipe = popen(command.c_str(), "r");
     std::string out;
     char buffer[4096];
