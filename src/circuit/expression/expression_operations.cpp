@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <limits>
+#include <utility>
+#include <vector>
 
 #include "core/number/elementary.hpp"
 
@@ -152,8 +154,9 @@ std::span<const NamedConstant> all_constants() { return constants; }
 const RandomFunction* find_random_function(std::string_view name) { return find_row(random_functions, name); }
 
 const Operation* find_operation(std::string_view name, int operands) {
+    name = without_alias(name);
     for (const auto& o : operations)
-        if (o.operands == operands && o.name == without_alias(name)) return &o;
+        if (o.operands == operands && o.name == name) return &o;
     return nullptr;
 }
 
@@ -162,12 +165,19 @@ const Operation* find_function(std::string_view name, bool allows_inputs) {
 }
 
 OperatorSpelling leading_operator(std::string_view text) {
+    static const auto spellings = [] {
+        std::vector<std::pair<std::string_view, const Operation*>> all;
+        for (const auto& o : operations)
+            if (o.level > 0) all.emplace_back(o.name, &o);
+        for (const auto& alias : other_spellings) {
+            const auto* o = find_operation(alias.operation, 2);
+            if (o && o->level > 0) all.emplace_back(alias.name, o);
+        }
+        return all;
+    }();
     OperatorSpelling out;
-    const auto try_spelling = [&](std::string_view spelling, const Operation* o) {
-        if (o && o->level > 0 && spelling.size() > out.length && text.starts_with(spelling)) out = {o, spelling.size()};
-    };
-    for (const auto& o : operations) try_spelling(o.name, &o);
-    for (const auto& alias : other_spellings) try_spelling(alias.name, find_operation(alias.operation, 2));
+    for (const auto& [spelling, operation] : spellings)
+        if (spelling.size() > out.length && text.starts_with(spelling)) out = {operation, spelling.size()};
     return out;
 }
 
