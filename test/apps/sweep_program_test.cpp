@@ -166,6 +166,14 @@ RanRanks run_ranks(const TemporaryFolder& folder, int ranks, const std::string& 
     return {WEXITSTATUS(status), test::read_file(folder / "log")};
 }
 
+/// The first number of the version.
+int open_mpi_version() {
+    const TemporaryFolder folder;
+    EXPECT_EQ(std::system(("mpirun --version >'" + (folder / "version") + "'").c_str()), 0);
+    const auto text = test::read_file(folder / "version");  // "mpirun (Open MPI) 4.1.4"
+    return std::stoi(text.substr(text.find(") ") + 2));
+}
+
 TEST(SweepRanks, GiveTheResultsOfOneThread) {
     const TemporaryFolder folder;
     folder.write("a.toml", sweep_of(300));
@@ -189,7 +197,7 @@ TEST(SweepRanks, AfterAKilledRankTheSameCommandComputesOnlyWhatIsMissing) {
         const auto out = "r" + std::to_string(victim);
         const auto ran = run_ranks(folder, 3, "a.toml", out, {.victim = victim});
         EXPECT_NE(ran.status, 0) << ran.output;
-        EXPECT_NE(ran.output.find("mpirun noticed that process rank " + std::to_string(victim)), std::string::npos) << ran.output;
+        EXPECT_NE(ran.output.find("run noticed that process rank " + std::to_string(victim)), std::string::npos) << ran.output;
         if (victim > 0) {
             EXPECT_NE(ran.output.find("the same command resumes the sweep"), std::string::npos) << ran.output;
         }
@@ -229,6 +237,7 @@ TEST(SweepRanks, EndWithTheErrorOfAnyOfThemAndItsExitStatus) {
     const auto none = run_ranks(folder, 2, "none.toml", "r");
     EXPECT_EQ(none.status, 1);
     EXPECT_EQ(none.output.find("none.toml"), none.output.rfind("none.toml")) << "printed once\n" << none.output;
+    if (!(open_mpi_version() < 5)) return;  // from there on the ranks cannot see the option
     const auto recovery = run_ranks(folder, 2, "0.toml", "r", {.mpirun = "--enable-recovery"});
     EXPECT_NE(recovery.output.find("leave the option out"), std::string::npos) << recovery.output;
 }

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <cstdlib>
 #include <filesystem>
 #include <sstream>
 
@@ -28,6 +29,20 @@ inline std::vector<std::string> deck_names(const std::string& folder = "") {
         if (entry.path().extension() == ".cir") out.push_back(entry.path().stem());
     std::sort(out.begin(), out.end());
     return out;
+}
+
+/// True if a deck or netlist of this name cannot be compared with this machine's ngspice: later ones than 39 compute the flicker noise of
+/// level 1 by another formula, that of NLEV = 2.
+inline bool is_another_formula(const std::string& name) {
+    static const int version = [] {
+        std::FILE* pipe = popen("ngspice --version", "r");
+        std::string text(4096, '\0');
+        text.resize(std::fread(text.data(), 1, text.size(), pipe));
+        pclose(pipe);
+        const auto at = text.find("ngspice-");
+        return at == text.npos ? 0 : std::atoi(text.c_str() + at + 8);
+    }();
+    return version > 39 && name.find("mos1_flicker") != name.npos;
 }
 
 /// Runs ngspice on the deck with this path and returns its standard output and error. Unless `raw` is empty, ngspice writes its curves to

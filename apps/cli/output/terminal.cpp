@@ -4,14 +4,17 @@
 #include <algorithm>
 #include <cctype>
 #include <cerrno>
+#include <chrono>
 #include <cmath>
 #include <csignal>
 #include <cstdio>
 #include <cstring>
 #include <ctime>
 #include <filesystem>
+#include <thread>
 
 #include "core/text/input_files.hpp"
+#include "run/ranks.hpp"
 
 namespace corpuscle {
 namespace {
@@ -68,6 +71,12 @@ int report_error(const Error& error) {
     print_message(error.text());
     if (error.further)
         for (const auto& other : *error.further) print_message(other.text());
+    return static_cast<int>(error.code);
+}
+
+int report_error_once(const Error& error) {
+    if (Ranks::reports_errors()) return report_error(error);
+    std::this_thread::sleep_for(std::chrono::milliseconds(500));
     return static_cast<int>(error.code);
 }
 

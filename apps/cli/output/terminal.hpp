@@ -14,6 +14,9 @@ namespace corpuscle {
 
 /// Prints an error, and the further ones that it holds, on standard error. Returns the exit status of its code.
 int report_error(const Error&);
+/// As report_error(), for a command that mpirun may have started as several ranks: rank 0 prints the error, and the others wait for it, because
+/// mpirun ends all ranks when one ends with an error.
+int report_error_once(const Error&);
 /// The exit status of a verb; prints the error, if there is one.
 int exit_status(const Result<void>& done);
 

@@ -145,7 +145,6 @@ Result<void> request_probes(RespondArguments& args) {
 }
 
 /// Prints an error; under mpirun in one process only. Returns the exit status.
-int report_once(const Error& error) { return Ranks::reports_errors() ? report_error(error) : static_cast<int>(error.code); }
 
 }  // namespace
 
@@ -175,11 +174,11 @@ double PlannedRun::trial_bin() const {
 int respond(const RespondArguments& given, const CommonArguments& common) {
     catch_interrupt();
     auto args = given;
-    if (auto ok = check_population_options(args, common); !ok) return report_once(ok.error());
-    if (auto ok = check_recording_arguments(common, args.forces); !ok) return report_once(ok.error());
-    if (auto ok = request_probes(args); !ok) return report_once(ok.error());
+    if (auto ok = check_population_options(args, common); !ok) return report_error_once(ok.error());
+    if (auto ok = check_recording_arguments(common, args.forces); !ok) return report_error_once(ok.error());
+    if (auto ok = request_probes(args); !ok) return report_error_once(ok.error());
     auto ranks = args.population.empty() ? Result<std::unique_ptr<Ranks>>(nullptr) : Ranks::join();
-    if (!ranks) return report_once(ranks.error());
+    if (!ranks) return report_error_once(ranks.error());
     auto* const group = ranks->get();
     if (group && group->rank() > 0) {
         auto quiet = common;

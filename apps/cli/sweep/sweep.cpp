@@ -99,13 +99,10 @@ Result<void> show_sweep_status(const SweepArguments& args, const CommonArguments
 
 /// Runs the sweep, in this process or as one of the ranks of mpirun. Returns the exit status.
 int run_in_process(const SweepArguments& args, const CommonArguments& common) {
-    const auto report_once = [](const Error& error) {
-        return Ranks::reports_errors() ? report_error(error) : static_cast<int>(error.code);
-    };
     const auto shard = parse_shard(args.shard);
-    if (!shard) return report_once(shard.error());
+    if (!shard) return report_error_once(shard.error());
     const auto joined = Ranks::join();
-    if (!joined) return report_once(joined.error());
+    if (!joined) return report_error_once(joined.error());
     auto* const ranks = joined->get();
     const auto sweep = read_sweep(args.file, {args.seed, args.samples});
     if (sweep) (*sweep)->set_lanes(args.lanes);

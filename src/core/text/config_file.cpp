@@ -125,6 +125,9 @@ Result<void> check_tables(const ConfigNode& node, const ConfigKey& key) {
 
 }  // namespace
 
+ConfigNode::ConfigNode() = default;
+ConfigNode::ConfigNode(LocatedText located, Kind k) : LocatedText(std::move(located)), kind(k) {}
+
 const ConfigNode* ConfigNode::get(std::string_view key) const {
     const auto at = std::find_if(entries.begin(), entries.end(), [&](const auto& entry) { return entry.first.text == key; });
     return at == entries.end() ? nullptr : &at->second;

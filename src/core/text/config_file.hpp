@@ -41,9 +41,13 @@ inline ParameterOverride located_override(const LocatedSetting& entry, std::stri
 struct ConfigNode : LocatedText {
     enum class Kind { text, boolean, list, table, date };
     Kind kind = Kind::table;
-    std::vector<ConfigNode> elements = {};                         ///< of a list
-    std::vector<std::pair<LocatedText, ConfigNode>> entries = {};  ///< of a table, in the order of the keys; with the locations of the keys
-    bool is_inline = false;                                        ///< a table in one line: {x = 1, y = 2}
+    std::vector<ConfigNode> elements;                         ///< of a list
+    std::vector<std::pair<LocatedText, ConfigNode>> entries;  ///< of a table, in the order of the keys; with the locations of the keys
+    bool is_inline = false;                                   ///< a table in one line: {x = 1, y = 2}
+
+    // Defined where the pair is complete; clang with libstdc++ 14 does not compile initializers of `entries` here.
+    ConfigNode();
+    ConfigNode(LocatedText, Kind);
 
     bool is_scalar() const { return kind == Kind::text; }  ///< true for a text or a number
     bool is_list() const { return kind == Kind::list; }

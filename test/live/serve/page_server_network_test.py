@@ -27,8 +27,6 @@ def skip(reason):
 
 
 def make_network():
-    if shutil.which("ip") is None:
-        skip("the program ip (package iproute2) is missing")
     if run("ip", "netns", "add", NAME, check=False).returncode != 0:
         skip("a network namespace needs the rights of root")
     if run("ip", "link", "add", f"{LINK}a", "type", "veth", "peer", "name", f"{LINK}b", "netns", NAME, check=False).returncode != 0:
@@ -82,6 +80,8 @@ def check_open_server(program, address):
 
 
 def main(program):
+    if shutil.which("ip") is None:
+        skip("the program ip (package iproute2) is missing")
     try:
         make_network()
         check_loopback_server(program)
