@@ -83,19 +83,27 @@ Result<const Json*> ObjectReader::object(const char* key) {
     return value;
 }
 
+const MessageArray* ObjectReader::array(const char* name) {
+    known_arrays_.emplace_back(name);
+    const auto at = std::ranges::find(arrays_, name, &MessageArray::name);
+    return at == arrays_.end() ? nullptr : &*at;
+}
+
 Result<void> ObjectReader::check_all_read() const {
-    const std::vector<std::string_view> known(known_.begin(), known_.end());
-    for (const auto& [key, value] : object_.items())
-        if (std::find(known.begin(), known.end(), key) == known.end())
-            return bad_input(
-                fmt::format("{}: unknown key '{}'{} (it has {})", name_, key, did_you_mean(key, known), fmt::join(known, ", ")));
+    const auto check = [&](std::string_view what, const std::string& name, const std::vector<std::string>& all) -> Result<void> {
+        const std::vector<std::string_view> known(all.begin(), all.end());
+        if (std::ranges::find(known, name) != known.end()) return {};
+        const auto others = known.empty() ? "it has none" : fmt::format("it has {}", fmt::join(known, ", "));
+        return bad_input(fmt::format("{}: unknown {} '{}'{} ({})", name_, what, name, did_you_mean(name, known), others));
+    };
+    for (const auto& [key, value] : object_.items()) TRY(check("key", key, known_));
+    for (const auto& one : arrays_) TRY(check("array", one.name, known_arrays_));
     return {};
 }
 
-Result<std::vector<double>> signal(ObjectReader& request, const Message& message, const char* name, std::size_t samples,
-                                   double default_value) {
+Result<std::vector<double>> signal(ObjectReader& request, const char* name, std::size_t samples, double default_value) {
     constexpr double limit = 1e9;
-    const auto* array = message.find(name);
+    const auto* array = request.array(name);
     if (!array) return std::vector<double>(samples, TRY(request.number(name, -limit, limit, default_value)));
     if (request.has(name)) return bad_input(fmt::format("{}: \"{}\" is given as a number and as an array", request.name(), name));
     if (array->count != samples)

@@ -25,7 +25,6 @@ using Engine = PageEngine::Impl;
 
 struct Request {
     ObjectReader& head;
-    const Message& message;
     MessageWriter& answer;
 };
 
@@ -70,7 +69,7 @@ Result<void> answer_start(Engine& engine, const Request& request) {
 }
 
 Result<void> answer_advance(Engine& engine, const Request& request) {
-    return TRY(session_of(engine, request))->advance(request.head, request.message, engine.is_stopped, request.answer);
+    return TRY(session_of(engine, request))->advance(request.head, engine.is_stopped, request.answer);
 }
 
 Result<void> answer_contact(Engine& engine, const Request& request) {
@@ -84,13 +83,13 @@ Result<void> answer_set(Engine& engine, const Request& request) {
 Result<void> answer_respond(Engine& engine, const Request& request) {
     const double slice = TRY(request.head.number("slice", 0, 10, 0));
     auto rows = engine.session ? engine.session->row_requests() : std::vector<RowRequest>();
-    engine.job = TRY(ResponseJob::respond(request.head, request.message, std::move(rows)));
+    engine.job = TRY(ResponseJob::respond(request.head, std::move(rows)));
     return run_job(engine, request, slice);
 }
 
 Result<void> answer_monte_carlo(Engine& engine, const Request& request) {
     const double slice = TRY(request.head.number("slice", 0, 10, 0));
-    engine.job = TRY(ResponseJob::monte_carlo(request.head, request.message));
+    engine.job = TRY(ResponseJob::monte_carlo(request.head));
     return run_job(engine, request, slice);
 }
 
@@ -111,10 +110,10 @@ Result<void> answer_operating(Engine& engine, const Request& request) {
     return TRY(session_of(engine, request))->operating(request.head, request.answer);
 }
 
-Result<void> answer_read(Engine&, const Request& request) { return read_recording(request.head, request.message, request.answer); }
+Result<void> answer_read(Engine&, const Request& request) { return read_recording(request.head, request.answer); }
 
 Result<void> answer_save(Engine& engine, const Request& request) {
-    return TRY(session_of(engine, request))->save(request.head, request.message, request.answer);
+    return TRY(session_of(engine, request))->save(request.head, request.answer);
 }
 
 struct Handler {
@@ -151,14 +150,14 @@ Result<void> handle(Engine& engine, std::span<const std::byte> bytes, MessageWri
     ObjectReader start(message.head, "request");
     const auto name = TRY(start.text("request"));
     head["answer"] = name;
-    ObjectReader reader(message.head, name);
+    ObjectReader reader(message.head, name, message.arrays);
     TRY(reader.text("request"));
     if (reader.has("id")) {
         if (const auto& id = message.head["id"]; id.is_string() || id.is_number()) head["id"] = id;
     }
     const auto* handler = TRY(find_handler(name));
     answer.head = head;
-    return handler->answer(engine, {reader, message, answer});
+    return handler->answer(engine, {reader, answer});
 }
 
 }  // namespace

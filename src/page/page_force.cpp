@@ -36,13 +36,13 @@ Result<std::vector<ParameterOverride>> stimulus_overrides(const std::string& sti
 
 }  // namespace
 
-Result<PageForce> read_force(ObjectReader& request, const Message& message) {
+Result<PageForce> read_force(ObjectReader& request) {
     PageForce out;
     out.clock = TRY(read_clock(request));
     out.seed = TRY(request.integer("seed", 0, 1ULL << 53, 0));
     const auto name = TRY(request.text("stimulus", ""));
     const auto set = TRY(request.texts("stimulus_set"));
-    const auto* array = message.find("force");
+    const auto* array = request.array("force");
     if (name.empty() == (array == nullptr))
         return bad_input(fmt::format("{}: give either a \"stimulus\" or the array \"force\"", request.name()));
     if (array) {

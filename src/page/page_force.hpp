@@ -15,6 +15,6 @@ struct PageForce {
 };
 
 /// Reads the keys "rate", "seed", "stimulus" and "stimulus_set", or the array "force" instead of the last two.
-Result<PageForce> read_force(ObjectReader&, const Message&);
+Result<PageForce> read_force(ObjectReader&);
 
 }  // namespace corpuscle::page

@@ -12,13 +12,6 @@ namespace {
 constexpr std::size_t max_page_sites = 1 << 16, max_page_afferents = 1 << 16;
 constexpr std::size_t max_pressed_samples = 32;  // simulated at once; bounds the memory for the force at all sites
 
-/// The page must not read files of the machine on which the engine runs.
-Result<void> refuse_population_path(const std::string& population) {
-    if (population.find_first_of("./\\") == std::string::npos) return {};
-    return bad_input(
-        fmt::format("'{}' is the path of a file; the page has the populations of the catalogue, such as fingertip", population));
-}
-
 /// The parameters of position and movement, which are the page's.
 bool is_of_movement(std::string_view name) {
     return name == "x" || name == "y" || name == "x1" || name == "y1" || name == "t_start" || name == "t_move";
@@ -93,8 +86,7 @@ Result<SkinRequest> read_skin_request(ObjectReader& object) {
 }
 
 Result<PressedSkin> PressedSkin::make(const SkinRequest& request, const SimulationOptions& options, const Clock& clock) {
-    TRY(refuse_population_path(request.population));
-    auto plan = TRY(load_skin_plan(request.population));
+    auto plan = TRY(load_built_in_skin_plan(request.population));  // a page must not read files of the machine on which the engine runs
     if (plan.sites.size() > max_page_sites)
         return bad_input(fmt::format("{} has {} sites; the page presses at most {}", plan.name, plan.sites.size(), max_page_sites));
     auto applied = TRY(apply_overrides(std::move(plan), TRY(parse_overrides(request.set))));

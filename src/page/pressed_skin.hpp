@@ -33,7 +33,7 @@ public:
     const Position& middle() const { return middle_; }
     const Contact& contact() const { return *contact_; }
     std::int64_t samples() const { return samples_; }                    ///< that were simulated
-    std::span<const std::string> warnings() const { return warnings_; }  ///< of make() and the last change_contact()
+    std::span<const std::string> warnings() const { return warnings_; }  ///< of make()
 
     /// Adds the description of the skin, and its arrays, to an answer. `first_unit`: unit number of the first afferent.
     void describe(MessageWriter& answer, std::size_t first_unit) const;

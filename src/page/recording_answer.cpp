@@ -1,6 +1,7 @@
 #include "page/recording_answer.hpp"
 
 #include <fmt/format.h>
+#include <algorithm>
 #include <fstream>
 
 #include "io/recording/recording_options.hpp"
@@ -19,7 +20,15 @@ Result<void> write_file(const std::string& path, std::span<const std::byte> byte
     return {};
 }
 
-/// The options of the request: each is a text, as on the command line.
+/// The texts of an option: one, or a list of several.
+Result<std::vector<std::string>> option_texts(const std::string& name, const Json& value) {
+    const auto all = value.is_array() ? value : Json::array({value});
+    if (!std::ranges::all_of(all, [](const Json& text) { return text.is_string(); }))
+        return bad_input(fmt::format("read: the option \"{}\" is not a text, such as \"100Hz\", nor a list of texts", name));
+    return all.get<std::vector<std::string>>();
+}
+
+/// The options of the request: each is a text, as on the command line, or a list of texts.
 Result<RecordingOptions> read_options(ObjectReader& request) {
     RecordingOptions out;
     auto group = recording_option_group(out);
@@ -27,9 +36,8 @@ Result<RecordingOptions> read_options(ObjectReader& request) {
     bool has_rate = false;
     if (const auto* options = TRY(request.object("options")))
         for (const auto& [name, value] : options->items()) {
-            if (!value.is_string()) return bad_input(fmt::format("read: the option \"{}\" is not a text, such as \"100Hz\"", name));
             if (name == "layout") return bad_input("read: the page reads one file, without a layout");
-            TRY(set_option(group, name, value.get<std::string>()));
+            for (const auto& text : TRY(option_texts(name, value))) TRY(set_option(group, name, text));
             has_rate = has_rate || name == "rate";
         }
     if (!has_rate) out.rate.reset();
@@ -59,11 +67,11 @@ Result<void> add_force(ForceSource& source, MessageWriter& answer) {
 
 }  // namespace
 
-Result<void> read_recording(ObjectReader& request, const Message& message, MessageWriter& answer) {
+Result<void> read_recording(ObjectReader& request, MessageWriter& answer) {
     const auto name = std::filesystem::path(TRY(request.text("name"))).filename().string();
     const auto options = TRY(read_options(request));
+    const auto* bytes = request.array("file");
     TRY(request.check_all_read());
-    const auto* bytes = message.find("file");
     if (!bytes || bytes->type != "u8") return bad_input("read: the array \"file\" of type u8 is missing");
     if (name.empty() || name == "." || name == "..") return bad_input("read: \"name\" is not the name of a file, such as touch.csv");
     const auto directory = TRY(TemporaryDirectory::make());

@@ -15,10 +15,10 @@ constexpr double max_recorded = 2e7;  // values of all probes together
 
 }  // namespace
 
-Result<ResponseJob> ResponseJob::respond(ObjectReader& request, const Message& message, std::vector<RowRequest> rows) {
+Result<ResponseJob> ResponseJob::respond(ObjectReader& request, std::vector<RowRequest> rows) {
     ResponseJob out;
     out.name_ = "respond";
-    out.force_ = TRY(read_force(request, message));
+    out.force_ = TRY(read_force(request));
     out.every_ = static_cast<std::size_t>(TRY(request.integer("every", 0, 1'000'000, 0)));
     if (request.has("rows")) rows = TRY(read_row_requests(request));
     TRY(request.number("slice", 0, 10, 0));
@@ -38,7 +38,7 @@ Result<ResponseJob> ResponseJob::respond(ObjectReader& request, const Message& m
     return out;
 }
 
-Result<ResponseJob> ResponseJob::monte_carlo(ObjectReader& request, const Message& message) {
+Result<ResponseJob> ResponseJob::monte_carlo(ObjectReader& request) {
     constexpr std::uint64_t max_chips = 1000;
     ResponseJob out;
     out.name_ = "monte-carlo", out.is_monte_carlo_ = true;
@@ -46,7 +46,7 @@ Result<ResponseJob> ResponseJob::monte_carlo(ObjectReader& request, const Messag
     const auto chips = TRY(request.integer("chips", 1, max_chips));
     const auto seed = TRY(request.integer("seed", 0, 1ULL << 53, 1));
     RowRequest row{afferent, TRY(request.texts("set")), {}};
-    out.force_ = TRY(read_force(request, message));
+    out.force_ = TRY(read_force(request));
     TRY(request.number("slice", 0, 10, 0));
     TRY(request.check_all_read());
     row.set.push_back(fmt::format("mismatch={}", seed));
@@ -96,7 +96,7 @@ Result<void> ResponseJob::run(double seconds, const std::atomic<bool>& is_stoppe
     const auto has_time = [&] {
         return seconds == 0 || std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count() < seconds;
     };
-    while (!is_done() && has_time()) {
+    for (bool is_first = true; !is_done() && (is_first || has_time()); is_first = false) {  // at least one block, so that it ends
         if (is_stopped) return stopped_error();
         simulate_block();
     }
@@ -126,6 +126,9 @@ void ResponseJob::add_end(MessageWriter& answer) const {
             answer.add(fmt::format("probe.{}.{}", r, p), std::span<const float>(probes_[r][p]));
     }
     answer.head["rows"] = std::move(rows);
+    answer.head["warnings"] = Json::array();
+    if (!is_monte_carlo_)
+        for (const auto& plan : plans_) add_rate_warning(answer.head["warnings"], plan, force_.clock.rate());
     if (!force_.is_stimulus) return;
     std::vector<float> force;
     for (std::size_t k = 0; k < force_.force.size(); k += std::max<std::size_t>(1, every_))

@@ -33,9 +33,9 @@ class ResponseJob {
 
 public:
     /// Starts `respond`. `rows`: the rows of the session, if the request has none of its own.
-    static Result<ResponseJob> respond(ObjectReader&, const Message&, std::vector<RowRequest> rows);
+    static Result<ResponseJob> respond(ObjectReader&, std::vector<RowRequest> rows);
     /// Starts `monte-carlo`.
-    static Result<ResponseJob> monte_carlo(ObjectReader&, const Message&);
+    static Result<ResponseJob> monte_carlo(ObjectReader&);
 
     bool is_done() const { return plan_ == plans_.size(); }
     /// Simulates for about `seconds`, or to the end if it is 0, and adds the results to the answer. It ends with an error when

@@ -52,6 +52,8 @@ Result<AfferentPlan> plan_row(const RowRequest& request) {
     auto planned = TRY(plan_any_afferent(request.afferent, overrides, request.probes));
     const std::string_view targets[] = {request.afferent};
     TRY(check_all_used(planned.unused, targets));
+    if (!request.probes.empty() && planned.probes.empty())
+        return bad_input(fmt::format("{}: \"probes\" are for circuits; those of equations are always recorded", request.afferent));
     for (std::size_t k = 0; k < planned.probes.size(); ++k)
         if (!planned.probes[k].name)
             return bad_input(fmt::format("{} has no probe '{}'{}", request.afferent, request.probes[k], planned.probes[k].hint));

@@ -64,10 +64,7 @@ Result<Session> Session::start(ObjectReader& request, MessageWriter& answer) {
         units += out.skin_->afferents();
         for (const auto& warning : out.skin_->warnings()) answer.head["warnings"].push_back(warning);
     }
-    for (const auto& row : out.rows_)
-        if (row.plan().min_rate > out.clock_.rate())
-            answer.head["warnings"].push_back(
-                fmt::format("{} needs a sampling rate of at least {:g} Hz", row.plan().name, row.plan().min_rate));
+    for (const auto& row : out.rows_) add_rate_warning(answer.head["warnings"], row.plan(), out.clock_.rate());
     answer.head["units"] = units;
     answer.head["formats"] = {"csv"};
     if (find_helper_program("corpuscle-hdf5")) answer.head["formats"].push_back("nwb");
@@ -89,16 +86,15 @@ void Session::keep(std::span<const Spike> spikes) {
 }
 
 /// The force, position and shear of a request. `arrays` stores them.
-Result<ContactForce> Session::contact_force(ObjectReader& request, const Message& message, std::size_t samples,
-                                            std::vector<std::vector<double>>& arrays) const {
-    const auto has = [&](const char* name) { return request.has(name) || message.find(name) != nullptr; };
+Result<ContactForce> Session::contact_force(ObjectReader& request, std::size_t samples, std::vector<std::vector<double>>& arrays) const {
+    const auto has = [&](const char* name) { return request.has(name) || request.array(name) != nullptr; };
     for (const auto& [first, second] : {std::pair("x", "y"), {"shear_x", "shear_y"}})
         if (has(first) != has(second)) return bad_input(fmt::format("{}: give both {} and {}, or neither", request.name(), first, second));
-    arrays.push_back(TRY(signal(request, message, "force", samples, 0)));
+    arrays.push_back(TRY(signal(request, "force", samples, 0)));
     ContactForce out{arrays[0], samples_};
     for (const auto& [name, values, standard] :
          {std::tuple("x", &out.x, at_.x), {"y", &out.y, at_.y}, {"shear_x", &out.shear_x, 0.0}, {"shear_y", &out.shear_y, 0.0}}) {
-        arrays.push_back(TRY(signal(request, message, name, samples, standard)));
+        arrays.push_back(TRY(signal(request, name, samples, standard)));
         if (values == &out.x || values == &out.y || has(name)) *values = arrays.back();
     }
     return out;
@@ -122,13 +118,13 @@ Result<Json> Session::advance_skin(const ContactForce& force, const std::atomic<
     return out;
 }
 
-Result<void> Session::advance(ObjectReader& request, const Message& message, const std::atomic<bool>& is_stopped, MessageWriter& answer) {
+Result<void> Session::advance(ObjectReader& request, const std::atomic<bool>& is_stopped, MessageWriter& answer) {
     const auto samples = static_cast<std::size_t>(TRY(request.integer("samples", 1, max_block)));
     const auto every = static_cast<std::size_t>(TRY(request.integer("every", 0, max_block, 0)));
     if (!failure_.empty()) return bad_input(fmt::format("advance: after this error the simulation must be started again: {}", failure_));
     std::vector<std::vector<double>> arrays;
     arrays.reserve(5);
-    const auto force = TRY(contact_force(request, message, samples, arrays));
+    const auto force = TRY(contact_force(request, samples, arrays));
     TRY(request.check_all_read());
     std::vector<Spike> spikes;
     if (skin_) answer.head.update(TRY(advance_skin(force, is_stopped, spikes)));
@@ -180,18 +176,18 @@ Result<void> Session::operating(ObjectReader& request, MessageWriter& answer) co
 }
 
 /// The force that `save` has as an array.
-Result<SavedForce> Session::force_to_save(ObjectReader& request, const Message& message) const {
+Result<SavedForce> Session::force_to_save(ObjectReader& request) const {
     SavedForce out{static_cast<std::int64_t>(TRY(request.integer("force_from", 0, max_seed, 0))), {}};
-    const auto* array = message.find("force");
+    const auto* array = request.array("force");
     if (array) out.values = TRY(numbers_of(*array));
     if (out.first + static_cast<std::int64_t>(out.values.size()) > samples_)
         return bad_input(fmt::format("save: the force ends after sample {}, the last one that was simulated", samples_));
     return out;
 }
 
-Result<void> Session::save(ObjectReader& request, const Message& message, MessageWriter& answer) const {
+Result<void> Session::save(ObjectReader& request, MessageWriter& answer) const {
     const auto format = TRY(request.text("format", "csv"));
-    const auto force = TRY(force_to_save(request, message));
+    const auto force = TRY(force_to_save(request));
     TRY(request.check_all_read());
     auto spikes = spikes_;
     std::sort(spikes.begin(), spikes.end());  // those of circuits came later than others

@@ -21,8 +21,8 @@ class Session {
     std::string failure_;        // why the session cannot go on; "": it can
 
     void keep(std::span<const Spike>);
-    Result<ContactForce> contact_force(ObjectReader&, const Message&, std::size_t samples, std::vector<std::vector<double>>& arrays) const;
-    Result<SavedForce> force_to_save(ObjectReader&, const Message&) const;
+    Result<ContactForce> contact_force(ObjectReader&, std::size_t samples, std::vector<std::vector<double>>& arrays) const;
+    Result<SavedForce> force_to_save(ObjectReader&) const;
     Result<Json> advance_skin(const ContactForce&, const std::atomic<bool>& is_stopped, std::vector<Spike>&);
 
 public:
@@ -34,11 +34,11 @@ public:
     std::vector<RowRequest> row_requests() const;
 
     /// Ends with an error when `is_stopped`. After an error in the middle of a block the session cannot go on.
-    Result<void> advance(ObjectReader&, const Message&, const std::atomic<bool>& is_stopped, MessageWriter& answer);
+    Result<void> advance(ObjectReader&, const std::atomic<bool>& is_stopped, MessageWriter& answer);
     Result<void> change_contact(ObjectReader&, MessageWriter& answer);
     Result<void> change_row(ObjectReader&, MessageWriter& answer);
     Result<void> operating(ObjectReader&, MessageWriter& answer) const;
-    Result<void> save(ObjectReader&, const Message&, MessageWriter& answer) const;
+    Result<void> save(ObjectReader&, MessageWriter& answer) const;
 };
 
 /// The sampling rate of a request.

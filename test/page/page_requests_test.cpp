@@ -117,9 +117,27 @@ TEST(PageRequests, ARecordingIsReadFromItsBytes) {
     ASSERT_EQ(scaled.error(), "");
     EXPECT_EQ(scaled["rate"], 50.0);
     EXPECT_EQ(scaled.numbers("force.0"), (std::vector{2.0, 2.0, 2.0, 2.0}));
+    const auto both =
+        ask(engine, R"({"request": "read", "name": "two.csv", "options": {"channel": ["right", "left"], "abs": "true"}})", "file", bytes);
+    ASSERT_EQ(both.error(), "");
+    EXPECT_EQ(both["channels"].size(), 2U);
+    EXPECT_EQ(ask(engine, R"({"request": "read", "name": "two.csv", "options": {"channel": [1]}})", "file", bytes).error(),
+              "read: the option \"channel\" is not a text, such as \"100Hz\", nor a list of texts");
+    const auto skipped = ask(
+        engine, R"({"request": "read", "name": "two.csv", "options": {"skip": ".2e1", "time": "none", "rate": "1kHz"}})", "file", bytes);
+    EXPECT_EQ(skipped["samples"], 3) << skipped.error();  // the heading and one row less
     const auto wrong = ask(engine, R"({"request": "read", "name": "two.csv"})", "file", std::vector<std::uint8_t>{'x', '\n', 'y', '\n'});
     EXPECT_NE(wrong.error(), "");
     EXPECT_EQ(wrong.error().find("/tmp"), std::string::npos) << wrong.error();
+}
+
+TEST(PageRequests, AResponseHasItsWarningsAndGoesOnInAnySlice) {
+    PageEngine engine;
+    auto answer =
+        ask_well(engine, R"({"request": "respond", "rate": 100, "stimulus": "press", "rows": [{"afferent": "fa2"}], "slice": 1e-12})");
+    for (int k = 0; k < 10'000 && answer["done"] == false; ++k) answer = ask_well(engine, R"({"request": "continue", "slice": 1e-12})");
+    ASSERT_EQ(answer["done"], true);
+    EXPECT_EQ(answer["warnings"], nlohmann::ordered_json::array({"fa2 needs a sampling rate of at least 1000 Hz"}));
 }
 
 TEST(PageRequests, TheSpikesSinceTheStartAreSavedAsCsv) {
@@ -198,7 +216,9 @@ TEST(PageRequests, RefusedOnesNameTheFaultAndKeepTheSession) {
         {R"({"request": "advance", "samples": 10, "force": null})", "advance: \"force\" is null; expected a number"},
         {R"({"request": "advanse"})", "there is no request 'advanse'; did you mean 'advance'?"},
         {R"({"request": "start", "rate": 10000, "rows": [{"afferent": "circuits/own.cir"}]})", "'circuits/own.cir' is the path of a file"},
-        {R"({"request": "start", "rate": 10000, "skin": {"population": "own.toml"}})", "'own.toml' is the path of a file"},
+        {R"({"request": "start", "rate": 10000, "skin": {"population": "own.toml"}})", "there is no population 'own.toml'"},
+        {R"({"request": "start", "rate": 10000, "skin": {"population": "README"}})", "there is no population 'README'"},
+        {R"({"request": "start", "rate": 10000, "rows": [{"afferent": "sa1", "probes": ["vf"]}]})", "sa1: \"probes\" are for circuits"},
         {R"({"request": "start", "rate": 10000, "rows": [{"afferent": "sa1", "set": ["f_b=25Hz"]}]})",
          "sa1: unknown parameter 'f_b'; did you mean 'f_B'?"},
         {R"({"request": "start", "rate": 1e9})", "start: \"rate\" is 1000000000.0; expected a number from 10 to 1e+06"},
@@ -215,6 +235,8 @@ TEST(PageRequests, RefusedOnesNameTheFaultAndKeepTheSession) {
     }
     const auto too_long = ask(engine, R"({"request": "advance", "samples": 3})", "force", std::vector{1.0, 2.0});
     EXPECT_EQ(too_long.error(), "advance: the array 'force' has 2 values for 3 samples");
+    const auto mistyped = ask(engine, R"({"request": "advance", "samples": 2})", "Force", std::vector{1.0, 2.0});
+    EXPECT_EQ(mistyped.error().substr(0, 59), "advance: unknown array 'Force'; did you mean 'force'? (it h");
     EXPECT_EQ(ask_well(engine, R"({"request": "advance", "samples": 10, "force": 1})")["from"], 0);
 }
 

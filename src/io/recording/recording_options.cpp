@@ -46,7 +46,8 @@ Result<Interpolation> parse_interpolation(const std::string& text) {
     return text == "smooth" ? Interpolation::smooth : Interpolation::linear;
 }
 
-Result<std::size_t> parse_count(const std::string& text) { return std::stoul(text); }
+/// The text has been checked to be an integer; it may also be "1k".
+Result<std::size_t> parse_count(const std::string& text) { return static_cast<std::size_t>(TRY(parse_quantity(text, ""))); }
 
 }  // namespace
 

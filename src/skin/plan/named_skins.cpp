@@ -60,11 +60,20 @@ constexpr std::size_t max_file_size = std::size_t{64} << 20;  // bytes
 
 std::string embedded_path(std::string_view name) { return fmt::format("skins/{}.toml", name); }
 
-Error unknown_skin(std::string_view name) {
+/// `more`: what else a population may be.
+Error unknown_skin(std::string_view name, std::string_view more) {
     std::vector<std::string_view> names = {"grid 8x8"};
     for (const auto& s : named_skins()) names.push_back(s.name);
-    return bad_usage(fmt::format("there is no population '{}'{} (there are {}, grid ROWSxCOLUMNS, and files: own.toml)", name,
-                                 did_you_mean(name, names), joined(std::span(names).subspan(1))));
+    return bad_usage(fmt::format("there is no population '{}'{} (there are {}, {})", name, did_you_mean(name, names),
+                                 joined(std::span(names).subspan(1)), more));
+}
+
+/// A grid or an embedded population; nothing if there is none of this name.
+std::optional<Result<SkinPlan>> built_in_skin_plan(std::string_view name, std::span<const Channel> channels) {
+    if (is_grid_name(name)) return plan_grid(name);
+    const auto path = embedded_path(lower(name));
+    if (const auto text = embedded_text(path)) return parse_skin_plan(*text, path, channels);
+    return {};
 }
 
 /// The built-in populations, which are embedded in the program as files.
@@ -86,10 +95,15 @@ std::span<const NamedSkin> named_skins() {
     return all;
 }
 
+Result<SkinPlan> load_built_in_skin_plan(std::string_view name) {
+    name = trimmed(name);
+    if (auto plan = built_in_skin_plan(name, {})) return std::move(*plan);
+    return unknown_skin(name, "and grid ROWSxCOLUMNS");
+}
+
 Result<SkinPlan> load_skin_plan(std::string_view name, std::span<const Channel> channels) {
     name = trimmed(name);
-    if (is_grid_name(name)) return plan_grid(name);
-    if (const auto text = embedded_text(embedded_path(lower(name)))) return parse_skin_plan(*text, embedded_path(lower(name)), channels);
+    if (auto plan = built_in_skin_plan(name, channels)) return std::move(*plan);
     const fs::path path(name);
     std::error_code status;
     if (fs::exists(path, status) && !fs::is_directory(path, status)) {
@@ -97,7 +111,7 @@ Result<SkinPlan> load_skin_plan(std::string_view name, std::span<const Channel> 
         return text ? parse_skin_plan(*text, path.string(), channels) : Result<SkinPlan>(text.error());
     }
     if (path.extension() == ".toml") return bad_input("cannot be read: there is no such file", {path.string()});
-    return unknown_skin(name);
+    return unknown_skin(name, "grid ROWSxCOLUMNS, and files: own.toml");
 }
 
 namespace {
@@ -125,9 +139,10 @@ Result<void> check_meaning(const SkinPlan& plan, const SkinClass& c, const Param
     const auto remedy = has_parameter(c.afferent, given.parameter)
                             ? fmt::format("its {1} is set by {0}.{1}, and ", c.afferent_name, given.parameter)
                             : std::string();
-    return bad_usage(fmt::format("{}: the class {} of {} is the afferent {}; {}the thesis's {} is in a population file with afferent = \"{}\" "
-                                 "(doc/skin.md)",
-                                 given.typed, c.name, plan.name, c.afferent_name, remedy, c.name, c.name));
+    return bad_usage(
+        fmt::format("{}: the class {} of {} is the afferent {}; {}the thesis's {} is in a population file with afferent = \"{}\" "
+                    "(doc/skin.md)",
+                    given.typed, c.name, plan.name, c.afferent_name, remedy, c.name, c.name));
 }
 
 /// The settings of a class; `unused` receives the overrides that are not for it.

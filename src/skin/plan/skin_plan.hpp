@@ -74,6 +74,8 @@ struct SkinPlan {
 /// The plan of a population, by its name ("hand", "fingertip", "grid 8x8") or file. `channels` are the channels of the force input, which a
 /// file with sites = "channels" needs. Errors name file, line and column.
 Result<SkinPlan> load_skin_plan(std::string_view name, std::span<const Channel> channels = {});
+/// The plan of a grid or built-in population. Any other name is an error; no file is read.
+Result<SkinPlan> load_built_in_skin_plan(std::string_view name);
 /// The plan from the text of a population file; `file` is its name for messages.
 Result<SkinPlan> parse_skin_plan(std::string_view text, const std::string& file, std::span<const Channel> channels = {});
 

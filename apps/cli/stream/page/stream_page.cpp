@@ -29,6 +29,8 @@ public:
             return engine_.request(message);
         } catch (const std::bad_alloc&) {
             return bad_input("the request needs more memory than there is");
+        } catch (const std::exception& error) {  // a defect; it must not end the sessions of others
+            return bad_input(fmt::format("the engine failed: {}", error.what()));
         }
     }
     void stop() override { engine_.stop(); }
