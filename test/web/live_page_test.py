@@ -244,6 +244,50 @@ class Controls(LivePage):
         self.assertGreater(self.js("const {view} = corpuscle.charts; return view.b - view.a"), 5.9)
 
 
+    def test_a_stroke_ends_where_it_began(self):
+        before = self.js("return [corpuscle.press.x, corpuscle.press.y]")
+        self.browser.find_element(By.ID, "stroke").click()
+        self.until(lambda: abs(self.js("return corpuscle.press.x") - before[0]) > 3e-3)
+        self.until(lambda: self.js("return corpuscle.press.force") == 0 and self.js("return corpuscle.press.x") == before[0])
+        self.assertEqual(self.js("return [corpuscle.press.x, corpuscle.press.y]"), before)
+
+    def test_a_mouse_presses_after_the_keyboard(self):
+        self.js("document.getElementById('skin-view').focus()")
+        ActionChains(self.browser).send_keys(Keys.ARROW_RIGHT).perform()
+        canvas = self.browser.find_element(By.CSS_SELECTOR, "#skin-view canvas")
+        ActionChains(self.browser).move_to_element(canvas).click_and_hold().perform()
+        self.wait(0.2)
+        self.assertTrue(self.js("return corpuscle.press.isDown"))
+        ActionChains(self.browser).release().perform()
+        ActionChains(self.browser).context_click(canvas).perform()
+        self.assertFalse(self.js("return corpuscle.press.isDown"))
+
+    def test_a_frequency_out_of_range_is_limited(self):
+        field = self.browser.find_element(By.ID, "vibration")
+        for typed, used in (("999", "500"), ("", "1")):
+            field.clear()
+            field.send_keys(typed)
+            self.browser.find_element(By.ID, "vibrate").click()
+            self.assertEqual(field.get_attribute("value"), used)
+
+    def test_a_tilt_turns_friction_off_and_takes_its_azimuth_with_it(self):
+        def change(name, text):
+            self.js("const field = document.querySelector(`[data-parameter=${arguments[0]}] input[type=number]`); field.value = arguments[1]; field.dispatchEvent(new Event('change'))", name, text)
+            self.until(lambda: abs(self.js("return corpuscle.session.contactValues.get(arguments[0])", name) - float(text)) < 1e-6)
+
+        self.js("document.querySelector('.skin-controls details').open = true; document.getElementById('shear').click()")
+        change("tilt", "10")
+        self.until(lambda: self.js("return document.getElementById('shear').disabled"))
+        self.press(0.4)
+        self.assertEqual(self.text("message"), "")
+        self.assertGreater(self.counts()[0], 1)
+        change("azimuth", "30")
+        change("tilt", "0")
+        self.until(lambda: self.js("return corpuscle.session.contactValues.get('azimuth')") == 0)
+        self.assertNotIn("azimuth", self.browser.current_url)
+        self.assertTrue(self.js("return document.querySelector('.skin-controls details').open"))
+
+
 class Chip(LivePage):
     ROWS = "sa1-circuit"
 
@@ -305,11 +349,29 @@ class Recordings(LivePage):
         path.write_text("fz\n" + "".join(f"{100 * min(k / 100, 3)}\n" for k in range(500)))
         self.load(path)
         self.until(lambda: "--rate" in self.text("recording-status"))
-        self.browser.find_element(By.ID, "recording-rate").send_keys("500Hz")
-        self.browser.find_element(By.ID, "recording-scale").send_keys("0.01")
-        self.load(path)
+        self.set_options("--rate 500Hz --scale 0.01")  # the file is read again
         WebDriverWait(self.browser, 60).until(lambda _: "spikes" in self.text("recording-status"))
         self.assertIn("1 s", self.text("recording-status"))
+        self.set_options("--rate 250Hz --scale 0.01")
+        self.until(lambda: "2 s" in self.text("recording-status"))
+
+    def set_options(self, text):
+        field = self.browser.find_element(By.ID, "recording-options")
+        field.clear()
+        field.send_keys(text, Keys.ENTER)
+
+    def test_options_of_the_command_line_say_how_a_recording_is_read(self):
+        path = OUT / "two.csv"
+        path.write_text("t,fx,fz,left over\n" + "".join(f"{2 * k},0,{-100 * min(k / 100, 3):g},1\n" for k in range(500)))
+        self.load(path)
+        self.until(lambda: self.text("recording-status"))
+        self.set_options('--abs -c fz --channel="left over" --time-unit ms --scale 0.01 --notch 50Hz --notch 100Hz')
+        WebDriverWait(self.browser, 60).until(lambda _: "spikes" in self.text("recording-status"))
+        self.assertRegex(self.text("recording-status"), r"^two.csv, fz: 1 s")
+        self.assertIn("left over", self.text("recording"))
+        for line, message in (("fz --abs", "'fz' is not an option"), ("--chanel fz", "unknown option chanel"), ("--rate", "rate"), ("--rate soon", "soon")):
+            self.set_options(line)
+            self.until(lambda: message in self.text("recording-status"))
 
     def test_names_in_a_recording_stay_text(self):
         path = OUT / ("<img src=x onerror=document.title=1>.csv".replace("/", ""))

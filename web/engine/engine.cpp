@@ -16,7 +16,6 @@ struct Engine {
 extern "C" {
 
 EMSCRIPTEN_KEEPALIVE Engine* corpuscle_page_create() { return new Engine; }
-EMSCRIPTEN_KEEPALIVE void corpuscle_page_free(Engine* engine) { delete engine; }
 
 /// Answers the request of `length` bytes (doc/page-protocol.md). The answer is valid until the next request.
 EMSCRIPTEN_KEEPALIVE const std::byte* corpuscle_page_request(Engine* engine, const std::byte* request, std::size_t length) {

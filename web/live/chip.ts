@@ -101,14 +101,18 @@ export class Chip {
         this.view?.remove();
         this.view = null;
         fill(this.monteCarlo, progress);
+        let rows: {error?: string}[] = [];
         try {
             const isDone = await this.session.runJob(request, {}, ({head, arrays}) => {
                 if (!this.view) this.showChips(head, trains);
                 appendSpikes(trains, arrays.unit, arrays.time);
                 const counts = trains.map(({count}) => count);
                 progress.textContent = `${head.chips_done} of ${CHIPS} chips` + (head.done ? `: ${Math.min(...counts)} to ${Math.max(...counts)} spikes` : "");
+                rows = head.rows || [];
                 this.view!.request();
             });
+            const failed = rows.filter(({error}) => error);
+            if (failed.length) progress.textContent += `; ${failed.length} of them stopped: ${failed[0].error}`;
             if (!isDone) progress.textContent += ", stopped by another simulation";
         } catch (error) {
             progress.textContent = (error as Error).message;

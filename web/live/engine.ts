@@ -7,6 +7,8 @@ export interface Answer { head: any; arrays: Record<string, NumberArray> }
 export interface Engine {
     /// Where it computes, for the reader: "this browser".
     readonly place: string;
+    /// The formats of recordings that it reads, for the reader.
+    readonly formats: string;
     /// Throws the sentence of an error if a request of so many bytes is too long for it.
     checkLength(bytes: number): void;
     /// Sends a request. The promise is rejected with the sentence of the engine's error.
@@ -20,6 +22,7 @@ const megabytes = (bytes: number) => Math.ceil(bytes / 2 ** 20);
 /// Matches answers to requests by their order.
 abstract class QueueEngine implements Engine {
     abstract readonly place: string;
+    abstract readonly formats: string;
     protected abstract readonly mostBytes: number;  // of a request
     private waiting: Waiting[] = [];
     private failure: Error | null = null;  // after which no request is answered
@@ -56,6 +59,7 @@ abstract class QueueEngine implements Engine {
 /// The engine as WebAssembly in a worker, which is made from texts of the page, so that the page opens from disk.
 export class WorkerEngine extends QueueEngine {
     readonly place = "this browser";
+    readonly formats = "CSV, JSON or NPY (the command line reads more: compressed files, HDF5, NWB, sound)";
     protected readonly mostBytes = 128 << 20;  // the memory of a page is limited
     private worker: Worker;
 
@@ -75,6 +79,7 @@ export class WorkerEngine extends QueueEngine {
 /// The native engine behind the server of `corpuscle stream --serve`.
 export class SocketEngine extends QueueEngine {
     readonly place = "the server";
+    readonly formats = "CSV and all other formats of the command line";
     private socket: WebSocket;
     private unsent: Uint8Array[] = [];  // until the connection is open
 

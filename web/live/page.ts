@@ -14,12 +14,13 @@ import {Press, stroke, tap, vibration} from "./press";
 import {Recording} from "./recording";
 import {Rows} from "./rows";
 import {Session} from "./session";
-import {SettingQueue, copyOf, defaultSettings, putSettingsInLink, settingsOfLink} from "./settings";
+import {MAX_FORCE, MIN_FORCE, SettingQueue, copyOf, defaultSettings, putSettingsInLink, settingsOfLink} from "./settings";
 import {parameterControl} from "./sliders";
 import {Sound} from "./sound";
 import {SkinView} from "./skin-view";
 
 const UPDATES = 8;  // of the numbers in the rows, per second
+const MAX_FREQUENCY = 500;  // of a vibration, Hz
 
 class LivePage {
     private message = h("p", {class: "notes", role: "alert", id: "message", hidden: true});
@@ -35,6 +36,7 @@ class LivePage {
     private skinControls = h("div", {class: "skin-controls"});
     private chartHost = h("div", {class: "charts"});
     private showForce = () => {};  // on its control; set by forceControl()
+    private shear: HTMLInputElement = h("input", {type: "checkbox", id: "shear"});
     private frames = 0;
     private lastUpdate = 0;
 
@@ -98,50 +100,63 @@ class LivePage {
     }
 
     private forceControl(): HTMLElement {
-        const {press} = this, output = h("output", {}), slider: HTMLInputElement = h("input", {type: "range", id: "force", min: -2, max: 1.3, step: 0.01, "aria-label": "Force of a press", oninput: () => set(10 ** Number(slider.value))});
+        const {press} = this, output = h("output", {}), slider: HTMLInputElement = h("input", {type: "range", id: "force", min: Math.log10(MIN_FORCE), max: Math.log10(MAX_FORCE), step: 0.01, "aria-label": "Force of a press", oninput: () => set(10 ** Number(slider.value))});
         this.showForce = () => {
             press.target = this.settings.force;
             slider.value = String(Math.log10(press.target));
             output.textContent = quantity(press.target, "N", true);
         };
         const set = (force: number) => {
-            this.settings.force = Number(Math.max(0.01, Math.min(20, force)).toPrecision(3));
+            this.settings.force = Number(Math.max(MIN_FORCE, Math.min(MAX_FORCE, force)).toPrecision(3));
             this.showForce();
             putSettingsInLink(this.settings);
         };
         this.skinView.changeForce = (factor) => set(press.target * factor);
-        const shear: HTMLInputElement = h("input", {type: "checkbox", id: "shear", onchange: () => { press.hasShear = shear.checked; }});
-        return h("p", {class: "bar"}, h("label", {}, "Force ", slider, " ", output), h("label", {title: "The contact pulls the skin along with its movement, with half its force"}, shear, " Friction"));
+        const shear = this.shear;
+        shear.onchange = () => { press.hasShear = shear.checked; };
+        return h("p", {class: "bar"}, h("label", {}, "Force ", slider, " ", output), h("label", {title: "The contact pulls the skin along with its movement, with half its force, unless Indenter and contact gives it a tilt or friction"}, shear, " Friction"));
     }
 
     /// Movements that the page makes by itself.
     private programmes(): HTMLElement {
-        const {press} = this, frequency: HTMLInputElement = h("input", {type: "number", id: "vibration", value: 100, min: 1, max: 500, "aria-label": "Frequency of the vibration in Hz"});
+        const {press} = this, frequency: HTMLInputElement = h("input", {type: "number", id: "vibration", value: 100, min: 1, max: MAX_FREQUENCY, "aria-label": "Frequency of the vibration in Hz"});
         const line = (): [[number, number], [number, number]] => {
             const reach = 6e-3;  // m
             return [[press.x - reach, press.y], [press.x + reach, press.y]];
         };
+        const frequencyInRange = () => {  // typed values may be outside
+            const highest = Math.min(MAX_FREQUENCY, 0.45 * this.settings.rate), hertz = Math.max(1, Math.min(highest, Number(frequency.value)));
+            frequency.value = String(hertz);
+            return hertz;
+        };
         const button = (text: string, id: string, play: () => void) => h("button", {type: "button", id, onclick: play}, text);
         return h("p", {class: "bar"}, button("Tap", "tap", () => press.play(tap(press.x, press.y))), button("Stroke", "stroke", () => press.play(stroke(...line()))),
-            button("Vibrate", "vibrate", () => press.play(vibration(press.x, press.y, Number(frequency.value)))), h("label", {}, "at ", frequency, " Hz"));
+            button("Vibrate", "vibrate", () => press.play(vibration(press.x, press.y, frequencyInRange()))), h("label", {}, "at ", frequency, " Hz"));
     }
 
     /// Choosers of skin and indenter, sampling rate, and the sliders of the indenter.
     private showSkinControls() {
-        const {catalogue, settings} = this, populations = ["none", ...catalogue.populations.map(({name}) => name)], indenters = catalogue.indenters.map(({name}) => name), rates = [1000, 2000, 5000, 10_000, 20_000];
-        const restart = (change: () => void) => void this.restart(change);
+        const {catalogue, settings} = this, populations = ["none", ...catalogue.populations.map(({name}) => name)], indenters = catalogue.indenters.map(({name}) => name), rates = [...new Set([1000, 2000, 5000, 10_000, 20_000, settings.rate])].sort((a, b) => a - b);
+        const restart = (change: () => void) => void this.restart(change), isOpen = this.skinControls.querySelector("details")?.open || false;
         const values = this.session.contactValues, parameters = catalogue.contact.filter(({name}) => values.has(name));
         const queue = new SettingQueue(settings.contact, async () => {
             const isAccepted = await this.session.setContact();
             if (isAccepted) putSettingsInLink(settings);
             return isAccepted;
         });
-        const control = (one: typeof parameters[0]) => parameterControl(one, values.get(one.name)!, (text) => queue.change(one.name, text));
+        const change = async (name: string, text: string | null) => {
+            const endsTilt = name === "tilt" && !Number.parseFloat(text || "0") && settings.contact.has("azimuth");
+            if (endsTilt) await queue.change("azimuth", null);  // the direction of the tilt; the engine refuses it alone
+            const isAccepted = await queue.change(name, text);
+            if (endsTilt) this.showSkinControls();
+            return isAccepted;
+        };
+        const control = (one: typeof parameters[0]) => parameterControl(one, values.get(one.name)!, (text) => change(one.name, text));
         fill(this.skinControls, h("p", {class: "bar"},
             chooser("Skin", populations, Math.max(0, populations.indexOf(settings.population)), (k) => restart(() => { settings.population = k ? populations[k] : ""; })),
             chooser("Indenter", indenters, indenters.indexOf(settings.indenter), (k) => restart(() => { settings.indenter = indenters[k]; settings.contact.clear(); })),
             chooser("Samples per second", rates.map(String), rates.indexOf(settings.rate), (k) => restart(() => { settings.rate = rates[k]; }))),
-            h("details", {}, h("summary", {}, "Indenter and contact"), h("div", {class: "parameters"}, ...parameters.map(control))));
+            h("details", {open: isOpen}, h("summary", {}, "Indenter and contact"), h("div", {class: "parameters"}, ...parameters.map(control))));
     }
 
     /// Starts the simulation with changed settings. If the engine refuses them, they and the simulation stay as they were.
@@ -194,6 +209,7 @@ class LivePage {
             this.status.textContent = `${session.time.toFixed(1)} s, ${Math.round(this.frames / seconds)} frames/s, engine ${session.speed < 10 ? session.speed.toFixed(1) : Math.round(session.speed)} times real time`;
             [this.frames, this.lastUpdate] = [0, now];
             this.pause.textContent = session.isPaused ? "Go on" : "Pause";
+            this.shear.disabled = session.hasOwnShear;
             this.rows.update();
         });
     }

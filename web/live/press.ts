@@ -4,7 +4,7 @@
 const RISE = 0.04;  // s, in which the force rises to its target, or falls to zero
 
 /// A movement that the page makes by itself. `at` gives the place (m), and the fraction of the force, at time t (s) after its start.
-export interface Programme { duration: number; at(t: number): {x: number; y: number; fraction: number} }
+interface Programme { duration: number; at(t: number): {x: number; y: number; fraction: number} }
 
 export class Press {
     isDown = false;
@@ -17,6 +17,7 @@ export class Press {
     private lastY = 0;
     private programme: Programme | null = null;
     private played = 0;  // s of the programme
+    private place = [0, 0];  // where it began, and where the contact returns to
 
     /// Moves to a place at once; a press that is down moves there during the next block.
     moveTo(x: number, y: number) {
@@ -24,24 +25,36 @@ export class Press {
         if (this.force === 0) [this.lastX, this.lastY] = [x, y];
     }
 
-    play(programme: Programme) { [this.programme, this.played, this.isDown] = [programme, 0, false]; }
+    play(programme: Programme) {
+        if (!this.programme) this.place = [this.x, this.y];
+        [this.programme, this.played, this.isDown] = [programme, 0, false];
+    }
     stop() { this.programme = null; }
 
-    /// Force (N), position (m) and shear (N) for the next n samples. The shear, half the force, pulls the skin along with the movement.
-    block(n: number, rate: number): Record<string, Float64Array> {
+    /// Force (N), position (m) and shear (N) for the next n samples. The shear, half the force, pulls the skin along with the movement;
+    /// there is none if the contact has its own.
+    block(n: number, rate: number, hasOwnShear = false): Record<string, Float64Array> {
+        this.endProgramme();
         const force = new Float64Array(n), x = new Float64Array(n), y = new Float64Array(n), before = [this.lastX, this.lastY];
         for (let k = 0; k < n; ++k) {
             if (this.programme && this.played < this.programme.duration) this.follow(this.programme, 1 / rate);
             else this.approach((k + 1) / n, before, 1 / rate);
             [force[k], x[k], y[k]] = [Math.fround(this.force), this.lastX, this.lastY];  // as it is kept and saved
         }
-        return this.hasShear ? {force, x, y, ...shearOf(force, [this.lastX - before[0], this.lastY - before[1]])} : {force, x, y};
+        return this.hasShear && !hasOwnShear ? {force, x, y, ...shearOf(force, [this.lastX - before[0], this.lastY - before[1]])} : {force, x, y};
     }
 
     private follow(programme: Programme, dt: number) {
         const {x, y, fraction} = programme.at((this.played += dt));
         [this.lastX, this.lastY, this.force] = [x, y, fraction * this.target];
         [this.x, this.y] = [x, y];
+    }
+
+    /// After a programme the contact returns to where it began.
+    private endProgramme() {
+        if (!this.programme || this.played < this.programme.duration) return;
+        [this.programme, this.force] = [null, 0];
+        this.moveTo(this.place[0], this.place[1]);
     }
 
     /// Moves towards the place of the pointer, which it reaches at the end of the block, and towards its force.

@@ -10,19 +10,34 @@ import {LiveCurve, LiveTrain, appendSpikes} from "./history";
 import type {Session} from "./session";
 import {settingTexts} from "./settings";
 
+/// The options of a command line by their names: "--abs -c Fz --notch=50Hz --notch 100Hz" is {abs: ["true"], channel: ["Fz"], notch: ["50Hz", "100Hz"]}.
+/// A value with blanks is between quotation marks. Throws an error if a word is neither an option nor the value of one.
+function optionTexts(line: string): Record<string, string[]> {
+    const words = (line.match(/(?:"[^"]*"|[^\s"])+/g) || []).map((word) => word.replace(/"/g, "")), isOption = (word: string) => /^--?[a-z]/.test(word);
+    const options = new Map<string, string[]>();
+    for (let k = 0; k < words.length; ++k) {
+        const [, name, value] = words[k].match(/^--?([a-z][a-z-]*)(?:=(.*))?$/) || [];
+        if (!name) throw new Error(`options of the recording: '${words[k]}' is not an option; write for example --rate 1kHz`);
+        const full = name === "c" ? "channel" : name, hasNoValue = k + 1 === words.length || isOption(words[k + 1]);
+        options.set(full, [...(options.get(full) || []), value ?? (hasNoValue ? "true" : words[++k])]);
+    }
+    return Object.fromEntries(options);
+}
+
 export class Recording {
     readonly root = h("div", {id: "recording"});
     private result = h("div");
     private status = h("p", {class: "readout", role: "status", id: "recording-status"});
     private view: View | null = null;
-    private rate: HTMLInputElement = h("input", {type: "text", id: "recording-rate", size: 8, placeholder: "1kHz"});
-    private scale: HTMLInputElement = h("input", {type: "text", id: "recording-scale", size: 8, placeholder: "1"});
+    private options: HTMLInputElement = h("input", {type: "text", id: "recording-options", size: 40, spellcheck: false,
+        placeholder: "--rate 1kHz --scale 0.01 --channel Fz", onchange: () => this.read(this.file)});
+    private file: File | undefined;  // the last one
+    private newest = 0;              // number of the newest recording or stimulus
 
     constructor(private session: Session) {
-        const file: HTMLInputElement = h("input", {type: "file", id: "recording-file", "aria-label": "Recording", onchange: () => {
-            const chosen = file.files![0];
-            if (chosen) void this.load(chosen);
-            file.value = "";  // so that the same file can be chosen again
+        const input: HTMLInputElement = h("input", {type: "file", id: "recording-file", "aria-label": "Recording", onchange: () => {
+            this.read(input.files![0]);
+            input.value = "";  // so that the same file can be chosen again
         }});
         const names = session.catalogue.stimuli.map(({name}) => name);
         const runStimulus = (name: string) => {
@@ -32,22 +47,25 @@ export class Recording {
         let chosen = Math.max(0, names.indexOf("press"));
         const stimulus = chooser("or a stimulus", names, chosen, (k) => runStimulus(names[chosen = k]));
         const play = h("button", {type: "button", id: "play-stimulus", onclick: () => runStimulus(names[chosen])}, "Play");
-        append(this.root, h("p", {}, h("label", {}, "Recording ", file), " ", stimulus, " ", play),
-            h("p", {class: "bar"}, h("label", {title: "--rate: for a file without a column of times"}, "Rate ", this.rate), h("label", {title: "--scale: newtons per unit of the file"}, "Scale ", this.scale), "Set these before you choose the file."),
-            h("p", {class: "note"}, `A table of forces (CSV and other formats of the command line). It is read and simulated by ${session.engine.place}; it is not sent anywhere else.`), this.status, this.result);
+        append(this.root, h("p", {}, h("label", {}, "Recording ", input), " ", stimulus, " ", play),
+            h("p", {class: "bar"}, h("label", {title: "how the file is read: options of `corpuscle respond` for recordings"}, "Options of the recording ", this.options)),
+            h("p", {class: "note"}, `A table of forces: ${session.engine.formats}. It is read and simulated by ${session.engine.place}; it is not sent anywhere else.`), this.status, this.result);
         this.root.addEventListener("dragover", (event) => event.preventDefault());
         this.root.addEventListener("drop", (event) => {
             event.preventDefault();
-            const dropped = event.dataTransfer?.files[0];
-            if (dropped) void this.load(dropped);
+            this.read(event.dataTransfer?.files[0]);
         });
+    }
+
+    private read(file: File | undefined) {
+        if (file) void this.load(this.file = file);
     }
 
     private async load(file: File) {
         try {
             this.session.engine.checkLength(file.size);
-            const typed = Object.entries({rate: this.rate.value.trim(), scale: this.scale.value.trim()}).filter(([, text]) => text);
-            const answer = await this.session.engine.request({request: "read", name: file.name, options: Object.fromEntries(typed)}, {file: new Uint8Array(await file.arrayBuffer())});
+            const answer = await this.session.engine.request({request: "read", name: file.name, options: optionTexts(this.options.value)},
+                {file: new Uint8Array(await file.arrayBuffer())});
             this.showChannels(answer, file.name);
         } catch (error) {
             this.status.textContent = (error as Error).message;
@@ -64,13 +82,14 @@ export class Recording {
 
     private async run(force: object, arrays: {force?: any}, name: string) {
         const {settings, rows: shown} = this.session, trains = settings.rows.map(() => new LiveTrain()), colours = shown.map(({colour}) => colour);
-        const rows = settings.rows.map(({afferent, set}) => ({afferent, set: settingTexts(set)}));
+        const rows = settings.rows.map(({afferent, set}) => ({afferent, set: settingTexts(set)})), number = ++this.newest;
         try {
-            await this.session.runJob({request: "respond", rate: settings.rate, seed: settings.seed, rows, ...force}, arrays, (answer) => {
+            const isDone = await this.session.runJob({request: "respond", rate: settings.rate, seed: settings.seed, rows, ...force}, arrays, (answer) => {
                 appendSpikes(trains, answer.arrays.unit, answer.arrays.time);
                 this.status.textContent = `${name}: ${Math.round(100 * answer.head.progress)} % simulated`;
                 if (answer.head.done) this.show(answer, arrays.force || answer.arrays.force, trains, colours, name);
             });
+            if (!isDone && number === this.newest) this.status.textContent += ", stopped by another simulation";
         } catch (error) {
             this.status.textContent = (error as Error).message;
         }
@@ -87,5 +106,7 @@ export class Recording {
             new RasterPanel({host, name: "recorded spikes", title: ["spikes"], about: `spikes under ${name}`, height: Math.max(50, 24 * trains.length), clock, phases, isBottom: true, series: [],
                              rows: head.rows.map((row: {name: string}, k: number) => ({series: row.name, label: row.name, colour: colours[k], spikes: trains[k]}))}));
         this.status.textContent = `${name}: ${quantity(samples / rate, "s", true)}; ` + head.rows.map((row: {name: string}, k: number) => `${row.name} ${trains[k].count}`).join(", ") + " spikes";
+        const problems = [...head.warnings, ...head.rows.filter((row: {error?: string}) => row.error).map(({name: row, error}: any) => `${row}: ${error}`)];
+        if (problems.length) this.status.textContent += `. ${problems.join(". ")}`;
     }
 }

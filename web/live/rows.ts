@@ -33,8 +33,8 @@ export class Rows {
     /// Shows rates and powers of now; called a few times a second.
     update() {
         const {session} = this;
-        session.rows.forEach(({train, power, error, info}, k) => {
-            const text = error || `${quantity(train.rate(session.time - info.delay, RATE_WINDOW), "Hz", true)}, ${train.count} spikes${power ? `, ${quantity(power, "W", true)}` : ""}`;
+        session.rows.forEach(({train, power, error, outside, info}, k) => {
+            const text = error || `${quantity(train.rate(session.time - info.delay, RATE_WINDOW), "Hz", true)}, ${train.count} spikes${power ? `, ${quantity(power, "W", true)}` : ""}${outside ? `. ${outside}` : ""}`;
             if (this.readouts[k].textContent !== text) this.readouts[k].textContent = text;
             if (this.chips[k] && this.open.has(k)) void this.chips[k]!.update();
         });
@@ -85,7 +85,14 @@ export class Rows {
 
     /// Supply, temperature, corner and sizes of a circuit.
     private async showSettings(k: number, queue: SettingQueue, host: HTMLElement) {
-        const {afferent, set} = this.session.settings.rows[k], {head} = await this.session.engine.request({request: "settable", afferent}), all = head.settable as Setting[];
+        const {afferent, set} = this.session.settings.rows[k];
+        let all: Setting[];
+        try {
+            all = (await this.session.engine.request({request: "settable", afferent})).head.settable;
+        } catch (error) {
+            fill(host, h("p", {class: "note"}, (error as Error).message));
+            return;
+        }
         const control = (one: Setting) => settingControl(one, set.get(one.name), (text) => queue.change(one.name, text));
         const blocks = [...new Set(all.map(({block}) => block || ""))].filter(Boolean);
         append(host, h("h3", {}, "Supply, temperature, corner"), h("div", {class: "parameters"}, ...all.filter(({block}) => !block).map(control)), h("h3", {}, "Sizes of the devices"));

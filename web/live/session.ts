@@ -8,16 +8,16 @@ import {HISTORY, LiveCurve, LiveTrain, appendSpikes} from "./history";
 import type {Press} from "./press";
 import {Settings, settingTexts} from "./settings";
 
-export interface RowInfo {
+interface RowInfo {
     name: string; class: string; composition: string; is_circuit: boolean; probes: {name: string; unit: string}[]; delay: number; parameters: Parameter[];
     ranges: {quantity: string; unit: string; low: number; high: number; meaning: string}[];
 }
 
-export interface Row { info: RowInfo; colour: string; train: LiveTrain; curves: LiveCurve[]; power: number; error: string }
+export interface Row { info: RowInfo; colour: string; train: LiveTrain; curves: LiveCurve[]; power: number; error: string; outside: string }  // outside: the range that the last block has left
 export interface SkinClass { name: string; afferent: string; first: number; count: number }
 
 export interface Skin {
-    population: string; classes: SkinClass[]; regions: string[]; site_side: number; contact: string;
+    population: string; classes: SkinClass[]; site_side: number;
     x: number; y: number;                              ///< where the contact is in the beginning, m
     unitX: Float32Array; unitY: Float32Array;          ///< of the afferents, m
     siteX: Float32Array; siteY: Float32Array;          ///< m
@@ -46,7 +46,7 @@ export class Session {
     private lastAnswer = 0;  // its time, ms
     private simulated = 0;   // recently simulated, s
     private computed = 0;    // s that the engine needed for it
-    private isStarting = false;
+    private starts = 0;      // requested, and not answered yet
     private rate = 1;        // samples per second
     private job = 0;         // number of the newest one
     private generation = 0;  // answers to a start that has been replaced are ignored
@@ -61,7 +61,7 @@ export class Session {
         const {rate, seed, rows, population, indenter, contact} = this.settings;
         const request = {request: "start", rate, seed, rows: rows.map(({afferent, set}) => ({afferent, set: settingTexts(set)})),
                          ...(population ? {skin: {population, indenter, contact: settingTexts(contact)}} : {})};
-        this.isStarting = true;
+        ++this.starts;
         try {
             const {head, arrays} = await this.engine.request(request);
             ++this.generation;
@@ -76,13 +76,13 @@ export class Session {
             this.failed((error as Error).message);
             return false;
         } finally {
-            this.isStarting = false;
+            --this.starts;
         }
     }
 
     private emptyRow(info: RowInfo, colour: string): Row {
         const T = this.every / this.settings.rate;
-        return {info, colour, train: new LiveTrain(), power: 0, error: "", curves: info.probes.map(({name, unit}) => new LiveCurve(name, unit, T, info.name))};
+        return {info, colour, train: new LiveTrain(), power: 0, error: "", outside: "", curves: info.probes.map(({name, unit}) => new LiveCurve(name, unit, T, info.name))};
     }
 
     private get every() { return Math.max(1, Math.round(this.settings.rate / PROBE_RATE)); }
@@ -134,14 +134,14 @@ export class Session {
 
     cancelJob() {
         ++this.job;
-        void this.engine.request({request: "cancel"});
+        this.engine.request({request: "cancel"}).catch((error: Error) => this.failed(error.message));
     }
 
     /// Called at each screen frame with its time (s): requests the samples since the last one, unless the engine has two blocks to do.
     frame(now: number) {
         const passed = Math.min(now - this.lastFrame, 0.25);
         this.lastFrame = now;
-        if (this.isPaused || this.isStarting || this.generation === 0) return;
+        if (this.isPaused || this.starts > 0 || this.generation === 0) return;
         this.due = Math.min(this.due + passed, LONGEST_BLOCK);
         const samples = Math.floor(this.due * this.rate);
         if (this.pending === MOST_PENDING || samples === 0) return;
@@ -155,10 +155,13 @@ export class Session {
         return {first, values: Float64Array.from({length: samples - first}, (_, k) => this.force.range(first + k, first + k + 1)[0] ?? 0)};
     }
 
+    /// True if the contact itself has a tangential force, so that the press must not add one.
+    get hasOwnShear() { return ["tilt", "friction"].some((name) => (this.contactValues.get(name) || 0) > 0); }
+
     get isBusy() { return this.pending > 0; }
 
     private async advance(samples: number) {
-        const {generation} = this, asked = performance.now(), {rate} = this, {force, ...place} = this.press.block(samples, rate);
+        const {generation} = this, asked = performance.now(), {rate} = this, {force, ...place} = this.press.block(samples, rate, this.hasOwnShear);
         ++this.pending;
         try {
             const {head, arrays} = await this.engine.request({request: "advance", samples, every: this.every}, this.skin ? {force, ...place} : {force});
@@ -182,6 +185,8 @@ export class Session {
         head.rows.forEach((one: any, r: number) => {
             const row = this.rows[r];
             [row.power, row.error] = [one.power || 0, one.error || row.error];
+            const left = row.info.ranges.find((_, k) => one.outside[k] > 0);
+            row.outside = left ? `${left.quantity} is outside ${left.low} to ${left.high} ${left.unit}: ${left.meaning}` : "";
             row.curves.forEach((curve, p) => { const values = arrays[`probe.${r}.${p}`]; if (values) curve.append(values, one.first); });
         });
         if (head.contact) this.contactRadius = head.contact.radius;

@@ -15,7 +15,7 @@ export interface Settings {
     contact: Map<string, string>;
 }
 
-export const MAX_ROWS = 12;
+export const MAX_ROWS = 12, MIN_FORCE = 0.01, MAX_FORCE = 20;  // N
 
 export const defaultSettings = (catalogue: Catalogue): Settings => ({
     rate: 2000, seed: 0, force: 1, population: "fingertip", indenter: catalogue.indenters[0].name, contact: new Map(),
@@ -91,7 +91,7 @@ export function settingsOfLink(catalogue: Catalogue): Settings | null {
     const skin = values.get("skin") ?? out.population, indenter = values.get("indenter") ?? out.indenter;
     const isKnown = (skin === "" || skin === "none" || catalogue.populations.some(({name}) => name === skin)) && catalogue.indenters.some(({name}) => name === indenter);
     const hasUnknownKey = [...values.keys()].some((name) => !["rate", "seed", "force", "rows", "contact", "skin", "indenter"].includes(name));
-    Object.assign(out, {rate: number("rate", 500, 100_000, out.rate), seed: number("seed", 0, 2 ** 53, out.seed), force: number("force", 0, 100, out.force)});
+    Object.assign(out, {rate: number("rate", 500, 100_000, out.rate), seed: number("seed", 0, 2 ** 53, out.seed), force: number("force", MIN_FORCE, MAX_FORCE, out.force)});
     if (!rows || !contact || !isKnown || hasUnknownKey || [out.rate, out.seed, out.force].some(Number.isNaN)) return null;
     return {...out, rows, contact, population: skin === "none" ? "" : skin, indenter};
 }

@@ -32,6 +32,7 @@ export class SkinView {
     private connectPointer({canvas, scene}: SkinMap) {
         const {press} = this, follow = (event: PointerEvent) => press.moveTo(...scene.placeAt(event.offsetX, event.offsetY));
         canvas.addEventListener("pointerdown", (event) => {
+            if (event.button !== 0) return;
             press.stop();
             follow(event);
             press.isDown = true;
@@ -64,7 +65,7 @@ export class SkinView {
             keys[event.key](event);
         });
         this.root.addEventListener("keyup", (event) => { if (event.key === " ") press.isDown = false; });
-        this.root.addEventListener("focusout", () => { press.isDown = false; });
+        this.root.addEventListener("focusout", ({relatedTarget}) => { if (!this.root.contains(relatedTarget as Node | null)) press.isDown = false; });
     }
 
     /// Draws the skin anew, after a start. The press moves to its middle.

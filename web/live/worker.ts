@@ -30,5 +30,5 @@ scope.onmessage = ({data}) => {
         engine = made._corpuscle_page_create();
         module = made;
         waiting.splice(0).forEach(answer);
-    }, (error: Error) => scope.postMessage(`The engine did not start: ${error.message || error}`));
+    }).catch((error: Error) => scope.postMessage(`The engine ${module ? "has stopped" : "did not start"}: ${error.message || error}`));
 };
