@@ -47,6 +47,7 @@ export class Session {
     private simulated = 0;   // recently simulated, s
     private computed = 0;    // s that the engine needed for it
     private starts = 0;      // requested, and not answered yet
+    private contactChanges = 0;  // requested, and not answered yet: the contact may have a shear of its own
     private rate = 1;        // samples per second
     private job = 0;         // number of the newest one
     private generation = 0;  // answers to a start that has been replaced are ignored
@@ -104,6 +105,7 @@ export class Session {
     /// Replaces the indenter while the simulation goes on. Returns false if the engine refuses.
     async setContact(): Promise<boolean> {
         const {indenter, contact} = this.settings;
+        ++this.contactChanges;
         try {
             const {head} = await this.engine.request({request: "contact", indenter, set: settingTexts(contact)});
             this.setContactValues(head);
@@ -112,6 +114,8 @@ export class Session {
         } catch (error) {
             this.failed((error as Error).message);
             return false;
+        } finally {
+            --this.contactChanges;
         }
     }
 
@@ -161,7 +165,7 @@ export class Session {
     get isBusy() { return this.pending > 0; }
 
     private async advance(samples: number) {
-        const {generation} = this, asked = performance.now(), {rate} = this, {force, ...place} = this.press.block(samples, rate, this.hasOwnShear);
+        const {generation} = this, asked = performance.now(), {rate} = this, {force, ...place} = this.press.block(samples, rate, this.hasOwnShear || this.contactChanges > 0);
         ++this.pending;
         try {
             const {head, arrays} = await this.engine.request({request: "advance", samples, every: this.every}, this.skin ? {force, ...place} : {force});
