@@ -322,5 +322,23 @@ TEST(Mos1, OptionsScaleSizesAndGiveTheirDefaults) {
     EXPECT_NEAR(ends.number("i(vb)"), 1e-3 * 150e-12 + 2 * 2e-15, 2e-17) << "as is 100 um^2, ad is 50 um^2";
 }
 
+/// kf I^af / (m W L C_ox^2 f), with L without the two overlaps; the rest is the noise of the same circuit with kf = 0.
+TEST(Mos1, ItsFlickerNoiseIsThatOfTheFormula) {
+    const auto density = [](double kf, double af, double f) {
+        const auto run = run_netlist(fmt::format(
+            "flicker\nvd d 0 2 ac 1\nvg g 0 1.2\nm1 d g 0 0 n w=10u l=2u m=3\n.model n nmos(vto=0.7 kp=100u tox=20n ld=0.2u kf={} "
+            "af={})\nh1 out 0 vd 1\nr1 out 0 1\n.op\n.noise v(out) vd lin 1 {} {}\n",
+            kf, af, f, f));
+        return std::pair(std::pow(run.number("onoise_spectrum"), 2), std::abs(run.number("i(vd)")));
+    };
+    const double C = 3.9 * 8.8541878128e-12 / 20e-9, area = 3 * 10e-6 * 1.6e-6;
+    for (const auto& [af, f] : {std::pair(1.0, 1.0), {1.2, 1.0}, {1.2, 50.0}, {2.0, 1.0}}) {
+        const double kf = 1e-20;
+        const auto [S, I] = density(kf, af, f);
+        const double flicker = S - density(0, af, f).first, expected = kf * std::pow(I, af) / (area * C * C * f);
+        EXPECT_NEAR(flicker / expected, 1, 1e-4) << "af " << af << " at " << f << " Hz";
+    }
+}
+
 }  // namespace
 }  // namespace corpuscle::circuit::test
