@@ -8,8 +8,9 @@
 namespace corpuscle {
 namespace {
 
-/// The number of letters to replace, insert or remove, or of neighbours to swap. Upper and lower case are equal.
-std::size_t edit_distance(std::string_view a, std::string_view b) {
+/// The number of letters to replace, insert or remove, or of neighbours to swap; `limit` if it is not less. Upper and lower case are equal.
+std::size_t edit_distance(std::string_view a, std::string_view b, std::size_t limit) {
+    if (std::max(a.size(), b.size()) - std::min(a.size(), b.size()) >= limit) return limit;
     const auto differ = [&](std::size_t i, std::size_t j) { return lower(a[i]) != lower(b[j]); };
     std::vector<std::size_t> before(b.size() + 1), row(b.size() + 1), next(b.size() + 1);
     std::iota(row.begin(), row.end(), std::size_t{0});
@@ -22,7 +23,7 @@ std::size_t edit_distance(std::string_view a, std::string_view b) {
         }
         before = std::exchange(row, next);
     }
-    return row.back();
+    return std::min(row.back(), limit);
 }
 
 }  // namespace
@@ -45,7 +46,7 @@ std::string did_you_mean(std::string_view typed, std::span<const std::string_vie
     // A name is similar if at most half of the typed letters are changed, or one letter of a short name.
     std::size_t best_distance = std::max<std::size_t>(1, typed.size() / 2) + 1;
     for (const auto name : names)
-        if (const auto n = edit_distance(typed, name); n < best_distance) best_distance = n, best = name;
+        if (const auto n = edit_distance(typed, name, best_distance); n < best_distance) best_distance = n, best = name;
     return best.empty() ? "" : fmt::format("; did you mean '{}'?", best);
 }
 

@@ -84,6 +84,15 @@ TEST(Topology, AMistypedNodeIsReported) {
         << outcome->warnings[0].text();
 }
 
+TEST(Topology, TheFirstTwentyOfManyDanglingNodesHaveASuggestion) {
+    std::string text = "t\nv1 node00 0 1\nr1 node00 0 1k\n";
+    for (int k = 10; k < 35; ++k) text += fmt::format("r{} node{} 0 1k\n", k, k);
+    const auto outcome = run_text(text + ".op\n");
+    ASSERT_TRUE(outcome);
+    ASSERT_EQ(outcome->warnings.size(), 25U);
+    for (std::size_t k = 0; k < 25; ++k) EXPECT_EQ(outcome->warnings[k].text().ends_with("; did you mean 'node00'?"), k < 20) << k;
+}
+
 TEST(OperatingPoint, ADiodeFollowsItsEquation) {
     const auto outcome = run_text("t\ni1 0 a 1m\nd1 a 0 dx\n.model dx d(is=1e-15 n=1.5)\n.options gmin=0\n.op\n");
     ASSERT_TRUE(outcome);
