@@ -17,6 +17,9 @@ export interface Engine {
 
 interface Waiting { resolve: (answer: Answer) => void; reject: (error: Error) => void }
 
+/// The sentences for an engine in the page that does not start; `reason`: the browser's.
+export const notStarted = (reason: string) => `The engine did not start (${reason}). It needs Chrome 112, Firefox 113, Safari 16.4 or later; if this is one, load the page again.`;
+
 const megabytes = (bytes: number) => Math.ceil(bytes / 2 ** 20);
 
 /// Matches answers to requests by their order.
@@ -62,15 +65,26 @@ export class WorkerEngine extends QueueEngine {
     readonly formats = "CSV, JSON or NPY (the command line reads more: compressed files, HDF5, NWB, sound)";
     protected readonly mostBytes = 128 << 20;  // the memory of a page is limited
     private worker: Worker;
+    private hasAnswered = false;
 
     /// `script`: the text of the worker; `wasm`: the module.
     constructor(script: string, wasm: ArrayBuffer) {
         super();
         const url = URL.createObjectURL(new Blob([script], {type: "text/javascript"}));
         this.worker = new Worker(url);
-        this.worker.onmessage = ({data}) => (typeof data === "string" ? this.fail(data) : this.receive(data as ArrayBuffer));
-        this.worker.onerror = ({message}) => this.fail(`The engine has stopped: ${message || "its worker did not start"}`);
+        this.worker.onmessage = ({data}) => {
+            if (typeof data === "string") return this.end(data);
+            this.hasAnswered = true;
+            this.receive(data as ArrayBuffer);
+        };
+        this.worker.onerror = ({message}) => this.end(message || "its worker cannot be run");
         this.worker.postMessage(wasm, [wasm]);
+    }
+
+    /// `reason`: why the worker answers no more, with words of JavaScript and emscripten around it.
+    private end(reason: string) {
+        const plain = reason.replace(/^Uncaught /, "").replace(/\. Build with .*/, "");
+        this.fail(this.hasAnswered ? `The engine has stopped (${plain}). Reload the page to start it again; its link keeps the settings.` : notStarted(plain));
     }
 
     protected send(bytes: Uint8Array) { this.worker.postMessage(bytes.buffer, [bytes.buffer]); }

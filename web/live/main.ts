@@ -2,7 +2,8 @@
 // page.
 
 import {bytesOf} from "../base/arrays";
-import {SocketEngine, WorkerEngine} from "./engine";
+import {h} from "../base/dom";
+import {SocketEngine, WorkerEngine, notStarted} from "./engine";
 import {showLivePage} from "./page";
 import {showStreamPage} from "./stream-page";
 
@@ -16,7 +17,15 @@ export async function startLivePage(worker: string, catalogue: object) {
     if (served("corpuscle-stream")) return showStreamPage(socket("stream"));
     const engine = served("corpuscle-engine");
     if (engine) return showLivePage(new SocketEngine(socket("engine"), Number(engine.content)));
+    try {
+        const module = await unpackedEngine();
+        return showLivePage(new WorkerEngine(worker, module), catalogue);
+    } catch (error) {  // an older browser, or a damaged file
+        document.body.append(h("p", {class: "note", role: "alert"}, notStarted((error as Error).message)));
+    }
+}
+
+function unpackedEngine(): Promise<ArrayBuffer> {
     const bytes = bytesOf(document.getElementById("engine")!.textContent!);
-    const module = await new Response(new Blob([bytes]).stream().pipeThrough(new DecompressionStream("gzip"))).arrayBuffer();
-    return showLivePage(new WorkerEngine(worker, module), catalogue);
+    return new Response(new Blob([bytes]).stream().pipeThrough(new DecompressionStream("gzip"))).arrayBuffer();
 }

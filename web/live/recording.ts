@@ -83,6 +83,7 @@ export class Recording {
     private async run(force: object, arrays: {force?: any}, name: string) {
         const {settings, rows: shown} = this.session, trains = settings.rows.map(() => new LiveTrain()), colours = shown.map(({colour}) => colour);
         const rows = settings.rows.map(({afferent, set}) => ({afferent, set: settingTexts(set)})), number = ++this.newest;
+        this.status.textContent = `${name}: 0 % simulated`;
         try {
             const isDone = await this.session.runJob({request: "respond", rate: settings.rate, seed: settings.seed, rows, ...force}, arrays, (answer) => {
                 appendSpikes(trains, answer.arrays.unit, answer.arrays.time);

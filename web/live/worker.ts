@@ -1,4 +1,5 @@
 // The worker of the page's engine. Its first message is the WebAssembly module, each further one a request; it answers in order.
+// A text in place of an answer says why there will be none.
 export {};
 
 interface Module {
@@ -30,5 +31,5 @@ scope.onmessage = ({data}) => {
         engine = made._corpuscle_page_create();
         module = made;
         waiting.splice(0).forEach(answer);
-    }).catch((error: Error) => scope.postMessage(`The engine ${module ? "has stopped" : "did not start"}: ${error.message || error}`));
+    }).catch((error: Error) => scope.postMessage(String(error.message || error)));
 };
