@@ -24,6 +24,7 @@ export const rasterHeight = (rows: number, limit = 560) => Math.max(40, Math.min
 /// Spikes are ticks if they and their rows can be distinguished, else the number of spikes per pixel is shown as shades.
 export class RasterPanel<R extends Row = Row> extends RowsPanel<R> {
     private isGrouped: boolean;
+    private image?: HTMLCanvasElement;  // of the last density
 
     constructor(options: RasterOptions<R>) {
         super(options);
@@ -81,13 +82,13 @@ export class RasterPanel<R extends Row = Row> extends RowsPanel<R> {
     /// pixel of the screen.
     private paintDensity(pen: Pen, area: Area, rows: Row[], visible: [number, number][], minAlpha?: number) {
         const ratio = pixelRatio(), columns = Math.max(1, Math.round(area.w * ratio)), lines = Math.min(rows.length, Math.max(1, Math.floor(area.h * ratio)));
-        const counts = Array.from({length: lines}, () => new Uint32Array(columns)), colours: string[] = [];
+        const counts = new Uint32Array(lines * columns), colours: string[] = [];
         rows.forEach(({spikes, colour}, k) => {
             const line = Math.floor(k * lines / rows.length);
-            countPerColumn(counts[line], spikes, ...visible[k], this.view.a, this.view.b);
+            countPerColumn(counts.subarray(line * columns, (line + 1) * columns), spikes, ...visible[k], this.view.a, this.view.b);
             colours[line] = colour;
         });
-        const image = painted(counts, colours, minAlpha), gap = area.h / rows.length > 6 ? 1 : 0;
+        const image = (this.image = painted(counts, colours, minAlpha, this.image)), gap = area.h / rows.length > 6 ? 1 : 0;
         pen.imageSmoothingEnabled = false;
         if (gap === 0) pen.drawImage(image, 0, 0, columns, lines, area.x, area.y, area.w, area.h);
         else for (let k = 0; k < lines; ++k) pen.drawImage(image, 0, k, columns, 1, area.x, area.y + k * area.h / lines + gap, area.w, area.h / lines - 2 * gap);
@@ -136,17 +137,18 @@ export function countPerColumn(counts: Uint32Array, spikes: Pick<Train, "times" 
     }
 }
 
-/// A canvas with one pixel per count, in the colour of its line: more spikes are more opaque, and one spike has at least the opacity `minAlpha` of
-/// 255.
-export function painted(counts: Uint32Array[], colours: string[], minAlpha = 55): HTMLCanvasElement {
-    const most = counts.reduce((high, line) => line.reduce((m, n) => Math.max(m, n), high), 1);
-    const canvas = h("canvas", {width: counts[0].length, height: counts.length});
-    const image = new ImageData(canvas.width, canvas.height), pixels = new Uint32Array(image.data.buffer);
-    counts.forEach((line, y) => {
-        const [red, green, blue] = components(colours[y]), opaque = (blue << 16) | (green << 8) | red;
-        for (let x = 0; x < line.length; ++x)
-            if (line[x]) pixels[y * canvas.width + x] = ((minAlpha + (255 - minAlpha) * Math.sqrt(line[x] / most)) << 24) | opaque;
+/// A canvas with one pixel per count and one line per colour, on `canvas` if it is given: more spikes are more opaque, and one spike has at least
+/// the opacity `minAlpha` of 255.
+export function painted(counts: Uint32Array, colours: string[], minAlpha = 55, canvas = h("canvas")): HTMLCanvasElement {
+    const columns = counts.length / colours.length, image = new ImageData(columns, colours.length), pixels = new Uint32Array(image.data.buffer);
+    let most = 1;
+    for (let k = 0; k < counts.length; ++k) if (counts[k] > most) most = counts[k];
+    colours.forEach((colour, y) => {
+        const [red, green, blue] = components(colour), opaque = (blue << 16) | (green << 8) | red;
+        for (let k = y * columns; k < (y + 1) * columns; ++k)
+            if (counts[k]) pixels[k] = ((minAlpha + (255 - minAlpha) * Math.sqrt(counts[k] / most)) << 24) | opaque;
     });
+    if (canvas.width !== columns || canvas.height !== colours.length) [canvas.width, canvas.height] = [columns, colours.length];
     canvas.getContext("2d")!.putImageData(image, 0, 0);
     return canvas;
 }

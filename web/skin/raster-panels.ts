@@ -38,17 +38,17 @@ export class CountRasterPanel extends TimePanel {
         const {frames, t0, marks, colour} = this.options, {a, b} = this.view, ratio = devicePixelRatio || 1;
         if (!marks.length) return;
         const columns = Math.round(area.w * ratio), lines = Math.min(marks.length, Math.floor(area.h * ratio)), rowOf = new Map(marks.map((mark, row) => [mark, row]));
-        const counts = Array.from({length: lines}, () => new Uint32Array(columns)), column = (t: number) => Math.max(0, Math.min(columns, Math.round((t - a) / (b - a) * columns)));
+        const counts = new Uint32Array(lines * columns), column = (t: number) => Math.max(0, Math.min(columns, Math.round((t - a) / (b - a) * columns)));
         for (let f = 0; f < frames.count; ++f) {
             const from = column(t0 + f * frames.width), to = column(t0 + (f + 1) * frames.width);
             if (from >= to) continue;  // not visible
             frames.each(f, (mark, n) => {
                 const row = rowOf.get(mark);
-                if (row !== undefined) for (let c = from, line = counts[Math.floor(row * lines / marks.length)]; c < to; ++c) line[c] += n;
+                if (row !== undefined) for (let c = from, line = Math.floor(row * lines / marks.length) * columns; c < to; ++c) counts[line + c] += n;
             });
         }
         pen.imageSmoothingEnabled = false;
-        pen.drawImage(painted(counts, counts.map(() => colour), 110), 0, 0, columns, lines, area.x, area.y, area.w, area.h);
+        pen.drawImage(painted(counts, Array(lines).fill(colour), 110), 0, 0, columns, lines, area.x, area.y, area.w, area.h);
     }
 
     csv() {
