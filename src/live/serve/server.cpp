@@ -43,6 +43,7 @@ class HttpConnection : public std::enable_shared_from_this<HttpConnection> {
     ServerState& server_;
     beast::flat_buffer in_{2 * max_header};
     http::request_parser<http::empty_body> parser_;
+    std::string refusal_;  // its text, while it is sent
     std::array<char, 4096> rest_ = {};
     std::size_t rest_bytes_ = 0;
 
@@ -78,8 +79,17 @@ class HttpConnection : public std::enable_shared_from_this<HttpConnection> {
         if (decision.status >= 400) ++server_.counts.refused;
     }
 
-    template <class Body>
-    void send(http::response<Body> response) {
+    using Response = http::response<http::span_body<const char>>;
+
+    static Response response_of(http::status status, std::string_view type, std::string_view body) {
+        Response out(status, 11);
+        out.set(http::field::content_type, std::string(type) + "; charset=utf-8");
+        out.body() = {body.data(), body.size()};
+        out.prepare_payload();
+        return out;
+    }
+
+    void send(Response response) {
         response.set(http::field::connection, "close");
         response.set(http::field::cache_control, "no-store");
         response.set("X-Content-Type-Options", "nosniff");
@@ -89,7 +99,7 @@ class HttpConnection : public std::enable_shared_from_this<HttpConnection> {
         response.set("Cross-Origin-Opener-Policy", "same-origin");
         response.set("Cross-Origin-Resource-Policy", "same-origin");
         response.set("Referrer-Policy", "no-referrer");
-        const auto kept = std::make_shared<http::response<Body>>(std::move(response));
+        const auto kept = std::make_shared<Response>(std::move(response));
         stream_.expires_after(response_timeout);
         http::async_write(stream_, *kept, [self = shared_from_this(), kept](error_code error, std::size_t) {
             if (!error || error == http::error::end_of_stream) self->linger();
@@ -97,27 +107,16 @@ class HttpConnection : public std::enable_shared_from_this<HttpConnection> {
     }
 
     void send_page() {
-        const auto page = server_.options.page;
-        if (parser_.get().method() == http::verb::head) {
-            http::response<http::empty_body> response(http::status::ok, 11);
-            response.set(http::field::content_type, "text/html; charset=utf-8");
-            response.content_length(page.size());
-            return send(std::move(response));
-        }
-        http::response<http::span_body<const char>> response(http::status::ok, 11);
-        response.set(http::field::content_type, "text/html; charset=utf-8");
-        response.body() = {page.data(), page.size()};
-        response.prepare_payload();
+        auto response = response_of(http::status::ok, "text/html", server_.options.page);
+        if (parser_.get().method() == http::verb::head) response.body() = {};  // the header gives the length of the page
         send(std::move(response));
     }
 
     void refuse(const AccessDecision& decision) {
         count(decision);
-        http::response<http::string_body> response(http::int_to_status(decision.status), 11);
-        response.set(http::field::content_type, "text/plain; charset=utf-8");
+        if (parser_.get().method() != http::verb::head) refusal_ = decision.reason + "\n";
+        auto response = response_of(http::int_to_status(decision.status), "text/plain", refusal_);
         if (decision.status == 405) response.set(http::field::allow, "GET, HEAD");
-        if (parser_.get().method() != http::verb::head) response.body() = decision.reason + "\n";
-        response.prepare_payload();
         send(std::move(response));
     }
 
