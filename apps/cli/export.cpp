@@ -26,8 +26,8 @@ small-signal parameters (0.1 %), but without noise. Directives that ngspice does
 With --card the transistors are those of a foundry's kit, which is read from its own file: columns
 are multipliers, units in series a chain. See doc/kits.md.
 
-With --for svg a netlist becomes a schematic: its top level, or the block that --block names. See
-doc/schematics.md.
+With --for svg a netlist becomes a schematic: its top level, or the block or subcircuit that --block
+names. See doc/schematics.md.
 
 An afferent becomes a script, a module or a NIR graph with its equations and all values; see
 doc/export.md.
@@ -112,7 +112,7 @@ Verb make_export_verb() {
                           {"--for", &args->target, "SIMULATOR", target_description(), target_names()},
                           repeatable({"--set,-s", override_reader(args->request.settings, "--set"), "NAME.PARAMETER=VALUE",
                                       "set a parameter of the subject, such as sa1.f_B=25Hz"}),
-                          {"--block", &args->request.block, "NAME", "draw this block of a netlist (with --for svg)"}}},
+                          {"--block", &args->request.block, "NAME", "draw this block or subcircuit of a netlist (with --for svg)"}}},
                         {"Kit (with --for ngspice)",
                          {{"--card", &args->request.kit.card, "FILE", "the kit's file: transistors are its devices instead of UICM"},
                           {"--map", &args->request.kit.map, "NAME|FILE", map_description()},

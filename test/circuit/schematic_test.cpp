@@ -206,6 +206,74 @@ TEST(Schematic, OfABlockThatDoesNotExistNamesThoseThatDo) {
     ASSERT_TRUE(draw_schematic(*netlist, "hpb.RES"));
 }
 
+const char* const cells =
+    ".subckt inv a y vdd vss\nm1 y a vss vss n w=1u l=1u\nm2 y a vdd vdd p w=2u l=1u\n.ends\n"
+    ".subckt buf a y vdd vss\nx1 a b vdd vss inv\nx2 b y vdd vss inv\n.ends\n.model n nmos\n.model p pmos\n";
+
+TEST(Schematic, OfASubcircuitThatNoXLineUsesIsItsDefinition) {
+    const auto netlist = drawn_netlist(cells);
+    const auto inv = draw_schematic(netlist, "INV"), buf = draw_schematic(netlist, "buf");
+    ASSERT_TRUE(inv) << inv.error().text();
+    ASSERT_TRUE(buf) << buf.error().text();
+    EXPECT_EQ(inv->block, "inv");
+    EXPECT_EQ(inv->subcircuit, "inv");
+    EXPECT_EQ(attribute_values(inv->svg, "data-device"), (std::vector<std::string>{"inv.m1", "inv.m2"}));
+    EXPECT_EQ(attribute_values(inv->svg, "data-net"), (std::vector<std::string>{"a", "vdd", "vss", "y"}));
+    EXPECT_NE(inv->svg.find("<title>inv</title>"), std::string::npos);
+    EXPECT_EQ(attribute_values(buf->svg, "data-block"), (std::vector<std::string>{"buf.x1", "buf.x2"}));
+    EXPECT_TRUE(draw_schematic(drawn_netlist("v1 a 0 1\nr1 a 0 1k\n" + std::string(cells)), "inv"));
+}
+
+TEST(Schematic, OfAnEmptyTopLevelIsRefusedWithTheSubcircuitsThatCanBeDrawn) {
+    const auto message = [](const std::string& body, const std::string& block) {
+        const auto drawn = draw_schematic(drawn_netlist(body), block);
+        return drawn ? "drawn" : drawn.error().text();
+    };
+    EXPECT_EQ(message("", ""), "drawn.cir: the circuit has no elements");
+    EXPECT_EQ(message(".subckt inv a y\nr1 a y 1k\n.ends\n", ""),
+              "drawn.cir: inv is defined, but no X line uses it; add one, such as 'x1 a y inv', or draw it with --block inv");
+    EXPECT_EQ(message(cells, ""),
+              "drawn.cir: buf, inv are defined, but no X line uses them; add one, such as 'x1 a y vdd vss buf', or draw one of them with "
+              "--block buf");
+    EXPECT_EQ(message(cells, "x"), "there is no block 'x'; subcircuits are buf, inv");
+    EXPECT_EQ(message(cells, "bufs"), "there is no block 'bufs'; did you mean 'buf'?");
+    EXPECT_EQ(message(std::string(cells) + "x1 a y vdd vss buf\n", ""), "drawn");
+}
+
+TEST(Schematic, OfASubcircuitIsThatOfItsOnlyBlock) {
+    const auto body = std::string(cells) + "xneuron a y vdd vss buf\n";
+    const auto buf = draw_schematic(drawn_netlist(body), "buf"), inv = draw_schematic(drawn_netlist(body), "inv");
+    ASSERT_TRUE(buf) << buf.error().text();
+    EXPECT_EQ(buf->block, "xneuron");
+    ASSERT_FALSE(inv);
+    EXPECT_EQ(inv.error().message, "'inv' is one of several blocks: xneuron.x1, xneuron.x2; name one of them");
+}
+
+/// The width and height of an SVG's viewBox.
+std::pair<int, int> size_of(const std::string& svg) {
+    const auto view = attribute_values(svg, "viewBox").front();
+    int left = 0, top = 0, width = 0, height = 0;
+    EXPECT_EQ(std::sscanf(view.c_str(), "%d %d %d %d", &left, &top, &width, &height), 4);
+    return {width, height};
+}
+
+TEST(Schematic, OfALongFlatCircuitIsBrokenIntoRows) {
+    std::string chain = "vdd vdd 0 1\nv1 n0 0 1\n.model n nmos\n.model p pmos\n", ladder = "v1 n0 0 1\n", grid = "v1 g0_0 0 1\n";
+    for (int k = 0; k < 60; ++k) chain += fmt::format("mp{0} n{1} n{0} vdd vdd p\nmn{0} n{1} n{0} 0 0 n\n", k, k + 1);
+    for (int k = 0; k < 100; ++k) ladder += fmt::format("r{0} n{0} n{1} 1k\nc{0} n{1} 0 1p\n", k, k + 1);
+    for (int row = 0; row < 15; ++row)
+        for (int column = 0; column < 15; ++column)
+            grid += fmt::format("ra{0}_{1} g{0}_{1} g{2}_{1} 1k\nrb{0}_{1} g{0}_{1} g{0}_{3} 1k\n", row, column, row + 1, column + 1);
+    for (const auto& body : {chain, ladder, grid}) {
+        const auto netlist = drawn_netlist(body);
+        const auto drawn = draw_schematic(netlist, "");
+        ASSERT_TRUE(drawn) << drawn.error().text();
+        const auto [width, height] = size_of(drawn->svg);
+        EXPECT_LE(std::max(width, height), 4 * std::min(width, height)) << width << " x " << height;
+        check_all_levels(netlist);
+    }
+}
+
 TEST(Schematic, IsAnExportTargetThatTakesABlock) {
     const auto* target = find_export_target("svg");
     ASSERT_NE(target, nullptr);

@@ -225,6 +225,24 @@ class Chip(LivePage):
         self.until(lambda: len(self.all("svg.schematic")) == 2 and self.all(".row-card .columns .schematic .device[data-device]"))
         self.assertGreater(len(self.all(".block-state tbody tr")), 1)
 
+    def test_the_schematics_are_legible_and_scroll_in_their_panels(self):
+        for width in (1300, 360):
+            self.start(f"#rows={self.ROWS}&skin=none", width=width, height=800)
+            self.pause()
+            self.js("document.querySelector('.row-card details').open = true")
+            self.until(lambda: self.all("#schematic .block[data-block]"))
+            self.js("document.querySelector('#schematic .block[data-block=xsummer]').dispatchEvent(new MouseEvent('click', {bubbles: true}))")
+            self.until(lambda: len(self.all("svg.schematic")) == 2)
+            scales = self.js("return [...document.querySelectorAll('svg.schematic')].map((svg) => svg.getScreenCTM().a * parseFloat(getComputedStyle(svg).fontSize))")
+            self.assertGreaterEqual(min(scales), 8.99, f"{width}: the height of the texts, px")
+            small = self.js("return [...document.querySelectorAll('#schematic .block')].map((block) => block.getBoundingClientRect()).filter(({width, height}) => width < 24 || height < 24).length")
+            self.assertEqual(small, 0, f"{width}: blocks that a finger misses")
+            panel = self.js("const {clientWidth, scrollWidth, clientHeight} = document.getElementById('schematic'); return [clientWidth, scrollWidth, clientHeight]")
+            self.assertLessEqual(panel[2], 560)
+            if width == 360:
+                self.assertGreater(panel[1], panel[0], "the panel scrolls")
+            self.assertLessEqual(self.js("return document.documentElement.scrollWidth"), width, f"{width}: the page does not scroll sideways")
+
     def test_a_monte_carlo_has_the_chips_of_the_program(self):
         self.start(f"#rows={self.ROWS}&seed=1&skin=none")
         self.pause()  # the engine has only these chips to simulate

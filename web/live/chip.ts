@@ -11,13 +11,14 @@ import {settingTexts} from "./settings";
 
 interface Block { name: string; power: number; nodes: {name: string; voltage: number}[]; devices: {name: string; current: number}[] }
 
-const CHIPS = 50;  // of a Monte Carlo
+const CHIPS = 50;                           // of a Monte Carlo
+const LEAST_SCALE = 0.9, MOST_SCALE = 1.3;  // of a schematic; its texts are 10 units high
 
 export class Chip {
     private summary = h("p", {class: "readout"});
-    private drawing = h("div", {class: "schematic", id: "schematic"});
+    private drawing = h("div", {class: "schematic", id: "schematic", tabindex: "0", role: "group", "aria-label": "Schematic of the circuit"});
     private block = h("div", {class: "block-state"});
-    private blockDrawing = h("div", {class: "schematic"});
+    private blockDrawing = h("div", {class: "schematic", tabindex: "0", role: "group", "aria-label": "Schematic of the block"});
     private monteCarlo = h("div", {class: "monte-carlo"});
     private chosen = "";
     private isAsking = false;
@@ -39,11 +40,19 @@ export class Chip {
         try {
             const {arrays} = await this.session.engine.request({request: "schematic", afferent, set: settingTexts(set), block});
             const parsed = new DOMParser().parseFromString(new TextDecoder().decode(arrays.svg), "image/svg+xml").documentElement;
-            fill(host, document.importNode(parsed, true));
+            fill(host, Chip.sized(document.importNode(parsed, true) as unknown as SVGSVGElement));
+            host.scrollTo(0, 0);
         } catch (error) {
             fill(host, h("p", {class: "note"}, (error as Error).message));
         }
         if (!block) this.connectBlocks(host);
+    }
+
+    /// A drawing fills its panel, but its texts stay legible: a large one is wider than the panel, which scrolls.
+    private static sized(svg: SVGSVGElement) {
+        const {width} = svg.viewBox.baseVal;
+        svg.style.width = `clamp(${LEAST_SCALE * width}px, 100%, ${MOST_SCALE * width}px)`;
+        return svg;
     }
 
     private connectBlocks(host: HTMLElement) {

@@ -18,6 +18,7 @@ class CircuitElaborator {
     bool changes_values_;
     std::vector<SubcircuitInstance>* instances_;
     Scope top_;
+    Statement definition_line_;  // the X line of run_definition()
 
     struct NodeVoltage {
         std::string node;  // its name in the circuit
@@ -63,6 +64,19 @@ public:
         apply_overrides_to_directives(c);
         c.has_random_values = builder_.random.is_used();
         warn_of_means(c);
+        return std::move(c);
+    }
+
+    /// Makes the circuit of one subcircuit alone.
+    Result<Circuit> run_definition(std::string_view name) {
+        Circuit& c = builder_.circuit;
+        c.title = parsed_.title, c.file = parsed_.file;
+        c.node_numbers.emplace("0", 0);
+        TRY(define_top({}));
+        TRY(read_settings());
+        TRY(elaborate_definition(name));
+        if (!builder_.refusals.empty()) return builder_.refusals.combined();
+        TRY(check_references());
         return std::move(c);
     }
 
@@ -190,6 +204,20 @@ private:
         TRY(inner.define(given));
         TRY(inner.evaluate_conditions(builder_));
         return elaborate_contents(inner);
+    }
+
+    /// Elaborates a subcircuit of the top level as if an X line of the same name connected its ports to nodes of their names.
+    Result<void> elaborate_definition(std::string_view name) {
+        const auto definition = parsed_.top.subcircuits.find(name);
+        if (definition == parsed_.top.subcircuits.end())
+            return error_at({parsed_.file}, "there is no subcircuit '{}'{}", name,
+                            did_you_mean(name, std::views::keys(parsed_.top.subcircuits)));
+        LogicalLine line;
+        line.text = std::string(name);
+        for (const auto& port : definition->second->ports) line.text += ' ' + port;
+        line.text += fmt::format(" {}", name);
+        definition_line_ = TRY(split_element(std::move(line), nullptr));
+        return elaborate_instance(top_, definition_line_);
     }
 
     /// The words of an X line after its name: the nodes, then the name of the subcircuit.
@@ -533,6 +561,13 @@ Result<HierarchicalCircuit> Netlist::elaborate_hierarchy() const {
     if (overrides().mismatch_seed) draws = RandomDraws{*overrides().mismatch_seed, overrides().chip};
     const auto with_set_lines = TRY(add_set_lines(*impl_, overrides()));
     out.circuit = TRY(CircuitElaborator(*impl_, with_set_lines, overrides().changes_values(), draws, &out.instances).run({}));
+    return out;
+}
+
+Result<HierarchicalCircuit> Netlist::elaborate_definition(std::string_view subcircuit) const {
+    HierarchicalCircuit out;
+    if (!impl_) return out;
+    out.circuit = TRY(CircuitElaborator(*impl_, overrides(), overrides().changes_values(), {}, &out.instances).run_definition(subcircuit));
     return out;
 }
 

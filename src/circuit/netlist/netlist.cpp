@@ -121,6 +121,13 @@ std::map<std::string, Netlist::Parameter, std::less<>> Netlist::parameters() con
     return out;
 }
 
+std::vector<Netlist::Subcircuit> Netlist::subcircuits() const {
+    std::vector<Subcircuit> out;
+    if (!impl_) return out;
+    for (const auto& [name, definition] : impl_->top.subcircuits) out.push_back({name, definition->ports});
+    return out;
+}
+
 std::vector<std::string> Netlist::corners() const {
     std::vector<std::string> out;
     if (!impl_) return out;

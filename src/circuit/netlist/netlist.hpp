@@ -198,6 +198,17 @@ public:
     Result<Circuit> elaborate(const Values& parameters = {}, std::optional<RandomDraws> draws = {}) const;
     /// The same elements with the same values, in a circuit whose subcircuits are kept apart.
     Result<HierarchicalCircuit> elaborate_hierarchy() const;
+
+    /// A subcircuit that the top level defines.
+    struct Subcircuit {
+        std::string name;
+        std::vector<std::string> ports;
+    };
+    /// All subcircuits that the top level defines, by name.
+    std::vector<Subcircuit> subcircuits() const;
+    /// A circuit of one subcircuit of the top level with its default parameters, whether an X line uses it or not. It is the only instance
+    /// of the top level, its path is its name, and each port is connected to a node of the same name.
+    Result<HierarchicalCircuit> elaborate_definition(std::string_view subcircuit) const;
 };
 
 }  // namespace corpuscle::circuit

@@ -20,8 +20,9 @@ struct Schematic {
     std::string svg;
 };
 
-/// Draws one level. `block`: "" for the top level, or the name of a block as in parameters: "summer" is xsummer. A level with more than
-/// max_schematic_parts is refused.
+/// Draws one level. `block`: "" for the top level, or the name of a block as in parameters: "summer" is xsummer. The name of a subcircuit
+/// means its only block; of one that no X line uses, its definition is drawn. A level with more than max_schematic_parts is refused, and a
+/// top level without elements, too.
 Result<Schematic> draw_schematic(const Netlist&, std::string_view block);
 
 /// Draws the top level and all blocks; an outer block comes before its parts. Levels that are too large are left out, except that a top

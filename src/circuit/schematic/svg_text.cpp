@@ -86,14 +86,19 @@ class SvgWriter {
     void add_symbol(const Part& part, Orientation o) {
         const auto symbol = symbol_path(part);
         if (symbol.lines.empty()) return;
-        const char* turn = o.is_horizontal && o.is_flipped ? " transform=\"rotate(90)\""
-                           : o.is_horizontal               ? " transform=\"rotate(-90)\""
-                           : o.is_mirrored && o.is_flipped ? " transform=\"scale(-1 -1)\""
-                           : o.is_mirrored                 ? " transform=\"scale(-1 1)\""
-                           : o.is_flipped                  ? " transform=\"scale(1 -1)\""
-                                                           : "";
+        const auto t = map_of(o);
+        const bool is_upright = t.xx == 1 && t.yy == 1;
+        const auto turn = is_upright ? "" : fmt::format(" transform=\"matrix({} {} {} {} 0 0)\"", t.xx, t.yx, t.xy, t.yy);
         add("<path d=\"{}\"{}/>", symbol.lines, turn);
         if (!symbol.solid.empty()) add("<path class=\"solid\" d=\"{}\"{}/>", symbol.solid, turn);
+        if (symbol.signs.empty()) return;
+        out_ += "<path d=\"";
+        for (const auto& sign : symbol.signs) {
+            const auto at = t(sign.at);
+            add("M{} {}h6", at.x - 3, at.y);
+            if (sign.is_plus) add("M{} {}v6", at.x, at.y - 3);
+        }
+        out_ += "\"/>";
     }
 
     /// The marks at the pins of a net that no wire joins.
@@ -153,13 +158,16 @@ public:
     std::string run() {
         const auto& e = drawing_.extent;
         const auto& level = drawing_.level;
-        const auto title = level.path.empty() ? level.title : fmt::format("{}: {}", level.path, level.subcircuit);
+        const auto title = level.path.empty()               ? level.title
+                           : level.path == level.subcircuit ? level.path  // a definition
+                                                            : fmt::format("{}: {}", level.path, level.subcircuit);
         add("<svg xmlns=\"http://www.w3.org/2000/svg\" class=\"schematic\" role=\"img\" viewBox=\"{} {} {} {}\">\n",
             e.left - picture_margin, e.top - picture_margin, e.right - e.left + 2 * picture_margin, e.bottom - e.top + 2 * picture_margin);
         std::size_t devices = 0, blocks = 0;
+        const auto counted = [](std::size_t count, const char* noun) { return fmt::format("{} {}{}", count, noun, count == 1 ? "" : "s"); };
         for (const auto& part : level.parts) ++(part.symbol == Symbol::block && !part.is_device_box ? blocks : devices);
-        add("<title>{}</title>\n<desc>Schematic with {} devices, {} blocks and {} nets</desc>\n<style>{}</style>\n", escaped(title),
-            devices - level.ports.size(), blocks, level.nets.size(), style);
+        add("<title>{}</title>\n<desc>Schematic with {}, {} and {}</desc>\n<style>{}</style>\n", escaped(title),
+            counted(devices - level.ports.size(), "device"), counted(blocks, "block"), counted(level.nets.size(), "net"), style);
         std::vector<std::vector<std::pair<std::size_t, std::size_t>>> pins(level.nets.size());
         for (std::size_t p = 0; p < drawing_.parts.size(); ++p)
             for (std::size_t k = 0; k < drawing_.parts[p].shape.pins.size(); ++k)

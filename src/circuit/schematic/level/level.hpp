@@ -58,6 +58,7 @@ struct Part {
     bool is_high_threshold = false;     ///< a transistor drawn with two gate lines
     bool is_signal_source = false;      ///< a source that varies with time or receives the force
     bool is_ammeter = false;            ///< a source of 0 V
+    bool has_controlling_pair = false;  ///< its third and fourth pin are the positive and the negative controlling node
     int index_of_hidden_bulk_net = -1;  ///< the net of a bulk that is not drawn because it is at its rail; -1: none
 };
 

@@ -62,19 +62,21 @@ void add_transistor_texts(const Element& e, Part& part) {
     if (e.kind->letter == 'm') part.texts.push_back(fmt::format("{:g} x {:g}", m, stack));
     if (w != e.values.end() && l != e.values.end())
         part.texts.push_back(fmt::format("{}/{}", short_quantity(w->second), short_quantity(l->second)));
-    if (e.kind->letter == 'q' && value_or(e.values, "area", 1) != 1) part.texts.push_back(fmt::format("area {:g}", e.values.at("area")));
 }
 
-std::string source_text(const Element& e) {
+/// The number of parallel devices and the relative size, where they are not 1.
+void add_factor_texts(const Element& e, Part& part) {
+    for (const auto* name : {"area", "scale"})
+        if (const double factor = value_or(e.values, name, 1); factor != 1) part.texts.push_back(fmt::format("{} {:g}", name, factor));
+    if (const double m = value_or(e.values, "m", 1); m != 1 && !is_mos(part.symbol)) part.texts.push_back(fmt::format("m = {:g}", m));
+}
+
+std::string shape_text(const Element& e, std::string_view unit) {
     using Shape = Waveform::Shape;
     const auto& waveform = e.waveform;
-    const char* unit = e.kind->letter == 'v' ? "V" : "A";
     switch (waveform.shape) {
-        case Shape::none:
-            return format_quantity(waveform.dc, unit);
         case Shape::force:
-            return fmt::format("force, {}",
-                               format_quantity(waveform.numbers.empty() ? 1 : waveform.numbers[0], e.kind->letter == 'v' ? "V/N" : "A/N"));
+            return "force, " + format_quantity(waveform.numbers.empty() ? 1 : waveform.numbers[0], fmt::format("{}/N", unit));
         case Shape::pulse:
             return "pulse";
         case Shape::sine:
@@ -90,15 +92,36 @@ std::string source_text(const Element& e) {
     }
 }
 
+/// The waveform of a source, then its DC value if the line gives it, then its AC stimulus.
+std::vector<std::string> source_texts(const Element& e) {
+    const auto& waveform = e.waveform;
+    const std::string_view unit = e.kind->letter == 'v' ? "V" : "A";
+    const auto dc = format_quantity(waveform.dc, unit);
+    std::vector<std::string> out;
+    if (waveform.shape == Waveform::Shape::none)
+        out.push_back(dc);
+    else
+        out.push_back(shape_text(e, unit));
+    if (waveform.shape != Waveform::Shape::none && waveform.has_dc) out.push_back("dc " + dc);
+    if (waveform.ac_magnitude != 0) out.push_back("ac " + format_quantity(waveform.ac_magnitude, unit));
+    return out;
+}
+
+/// The gain of a controlled source, whose unit is that of a conductance or a resistance, or 1.
+std::string gain_text(const Element& e) {
+    if (e.kind->letter == 'g') return format_quantity(e.value, "S");
+    if (e.kind->letter == 'h') return format_quantity(e.value, "ohm");
+    return fmt::format("gain {:g}", e.value);
+}
+
 std::string value_text(const Element& e) {
     const char letter = e.kind->letter;
-    if (letter == 'v' || letter == 'i') return source_text(e);
-    if (letter == 'b') return e.expression_is_voltage ? "v = f(...)" : "i = f(...)";
-    if (e.expression) return letter == 'c' ? "q = f(...)" : "f(...)";
+    if (e.expression)
+        return letter == 'c' ? "q = f(...)" : letter == 'r' ? "r = f(...)" : e.expression_is_voltage ? "v = f(...)" : "i = f(...)";
     if (letter == 'r') return format_quantity(e.value, "ohm");
     if (letter == 'c') return format_quantity(e.value, "F");
     if (letter == 'l') return format_quantity(e.value, "H");
-    if (letter == 'e' || letter == 'f' || letter == 'g' || letter == 'h') return fmt::format("gain {:g}", e.value);
+    if (letter == 'e' || letter == 'f' || letter == 'g' || letter == 'h') return gain_text(e);
     if (letter == 'k') return fmt::format("k = {:g}", e.value);
     return "";
 }
@@ -160,11 +183,15 @@ Part part_of_element(const Circuit& circuit, const Element& e, std::string name,
     if (is_transistor(part.symbol)) {
         add_transistor_pins(circuit, e, net, part);
         add_transistor_texts(e, part);
+        add_factor_texts(e, part);
         return part;
     }
     if (part.symbol == Symbol::block) return boxed(e, net, std::move(part));
     add_two_ends(circuit, e, net, part);
+    part.has_controlling_pair = !e.expression && e.nodes.size() == 4;
+    if (e.kind->letter == 'v' || e.kind->letter == 'i') part.texts = source_texts(e);
     if (const auto text = value_text(e); !text.empty()) part.texts.push_back(text);
+    add_factor_texts(e, part);
     if (!e.control_source.empty()) part.texts.push_back("i(" + e.control_source.substr(e.control_source.rfind('.') + 1) + ")");
     if (const auto* model = circuit.model_of(e); model != nullptr) part.type = model->name.substr(model->name.rfind('.') + 1);
     if (part.symbol == Symbol::note)

@@ -1,5 +1,8 @@
+#include "circuit/schematic/place/fold.hpp"
 #include "circuit/schematic/place/orient_parts.hpp"
 #include "circuit/schematic/place/stacks.hpp"
+
+#include <numeric>
 
 namespace corpuscle::circuit::schematic {
 namespace {
@@ -133,6 +136,9 @@ public:
         set_x();
         set_y_of_rows();
         set_free_y();
+        std::vector<std::size_t> all(drawing_.parts.size());
+        std::iota(all.begin(), all.end(), std::size_t{0});
+        fold(drawing_, all);
     }
 };
 

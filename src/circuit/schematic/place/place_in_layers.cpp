@@ -1,6 +1,9 @@
+#include "circuit/schematic/place/fold.hpp"
 #include "circuit/schematic/place/layers.hpp"
 #include "circuit/schematic/place/orient_parts.hpp"
 #include "circuit/schematic/place/stacks.hpp"
+
+#include <cmath>
 
 namespace corpuscle::circuit::schematic {
 namespace {
@@ -63,22 +66,16 @@ class LayerPlacer {
         return std::min(static_cast<int>(nets.size()), 10);
     }
 
-    Box place(const std::vector<std::vector<std::size_t>>& layers) {
+    void place(const std::vector<std::vector<std::size_t>>& layers) {
         set_heights(drawing_, layers);
         int x = 0;
-        Box all;
         for (std::size_t k = 0; k < layers.size(); ++k) {
             Box box;
             for (const auto p : layers[k]) box.include(drawing_.parts[p].shape.extent);
             const int centre = grid_ceil(x - box.left);
-            for (const auto p : layers[k]) {
-                auto& placed = drawing_.parts[p];
-                placed.at.x = centre;
-                all.include(placed.shape.extent.shifted(placed.at));
-            }
+            for (const auto p : layers[k]) drawing_.parts[p].at.x = centre;
             x = grid_ceil(centre + box.right) + 10 + 10 * tracks_after(layers, k);
         }
-        return all;
     }
     void shift(const std::vector<std::size_t>& group, Point by) {
         for (const auto p : group) drawing_.parts[p].at = drawing_.parts[p].at + by;
@@ -89,15 +86,29 @@ public:
     void run() {
         find_groups();
         orient();
-        int width = 0, x = 0, y = 0, shelf = 0;
+        std::vector<Box> boxes;
+        for (std::size_t k = 0; k < groups_.size(); ++k) place(layers_[k]), boxes.push_back(fold(drawing_, groups_[k]));
+        const int width = width_of_shelves(boxes);
+        int x = 0, y = 0, shelf = 0;
         for (std::size_t k = 0; k < groups_.size(); ++k) {
-            const auto box = place(layers_[k]);
-            if (k > 0 && x + (box.right - box.left) > std::max(width, 600)) x = 0, y += shelf + group_distance, shelf = 0;
+            const auto& box = boxes[k];
+            const bool is_second = k == 1;  // the largest group has a shelf of its own
+            if (is_second || (k > 0 && x + (box.right - box.left) > width)) x = 0, y += shelf + group_distance, shelf = 0;
             shift(groups_[k], {grid_ceil(x - box.left), grid_ceil(y - box.top)});
             shelf = std::max(shelf, box.bottom - box.top);
             x += box.right - box.left + group_distance;
-            if (k == 0) width = box.right - box.left, x = 0, y += shelf + group_distance, shelf = 0;
         }
+    }
+
+private:
+    /// At least the width of the largest group. With many groups, the picture becomes about twice as wide as high.
+    static int width_of_shelves(const std::vector<Box>& boxes) {
+        constexpr int least = 600;
+        double area = 0;
+        for (const auto& box : boxes)
+            area += static_cast<double>(box.right - box.left + group_distance) * (box.bottom - box.top + group_distance);
+        const int largest = boxes.empty() ? 0 : boxes.front().right - boxes.front().left;
+        return std::max({least, largest, static_cast<int>(std::sqrt(2 * area))});
     }
 };
 

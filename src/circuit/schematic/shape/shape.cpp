@@ -7,11 +7,6 @@ namespace {
 
 constexpr int half_height = 30;  // from the centre of a device to its pins
 
-Point turned(Point p, Orientation o) {
-    if (o.is_horizontal) return {(o.is_flipped ? -1 : 1) * p.y, -p.x};
-    return {o.is_mirrored ? -p.x : p.x, o.is_flipped ? -p.y : p.y};
-}
-
 Direction direction_to(Point p) {
     if (std::abs(p.x) > std::abs(p.y)) return p.x < 0 ? Direction::left : Direction::right;
     return p.y < 0 ? Direction::up : Direction::down;
@@ -34,16 +29,15 @@ void add_device_texts(const Part& part, Orientation o, Shape& shape) {
     std::vector<Text> lines = {{.kind = Text::Kind::name, .at = {}, .text = shortened(part.name)}};
     for (const auto& text : part.texts) lines.push_back({.kind = Text::Kind::value, .at = {}, .text = shortened(text)});
     const bool has_bulk = is_transistor(part.symbol) && part.pins.size() > 3;
-    if (is_transistor(part.symbol) && !part.type.empty())
-        lines.push_back({.kind = Text::Kind::type, .at = {}, .text = shortened(part.type)});
+    if (!part.type.empty()) lines.push_back({.kind = Text::Kind::type, .at = {}, .text = shortened(part.type)});
     const int count = static_cast<int>(lines.size());
     const int beside = is_transistor(part.symbol) ? 5 : part.symbol == Symbol::note ? 0 : 18;
     for (int k = 0; k < count; ++k) {
         auto& line = lines[static_cast<std::size_t>(k)];
         if (o.is_horizontal)
             line.at = {0, -20 - line_height * (count - 1 - k)}, line.anchor = Text::Anchor::middle;
-        else if (has_bulk)  // the bulk's label is in the middle
-            line.at = {beside, k < 2 ? -20 + 11 * k : 14 + 10 * (k - 2)};
+        else if (has_bulk)  // the bulk's mark is in the middle
+            line.at = {beside, k < 2 ? -22 + 11 * k : 16 + 11 * (k - 2)};
         else
             line.at = {beside, text_ascent / 2 - line_height * (count - 1) / 2 + line_height * k};
         if (o.is_mirrored && !o.is_horizontal) line.at.x = -beside, line.anchor = Text::Anchor::end;
@@ -53,13 +47,14 @@ void add_device_texts(const Part& part, Orientation o, Shape& shape) {
 
 Shape device_shape(const Part& part, Orientation o) {
     Shape shape;
+    const auto turn = map_of(o);
     for (std::size_t k = 0; k < part.pins.size(); ++k) {
-        const auto at = turned(device_pin(part, k), o);
+        const auto at = turn(device_pin(part, k));
         shape.pins.push_back({at, direction_to(at), part.pins[k].net, Connection::wire});
     }
     add_device_texts(part, o, shape);
-    const Point corner = turned(is_transistor(part.symbol) ? Point{-20, -20} : Point{-16, -20}, o);
-    const Point other = turned(is_transistor(part.symbol) ? Point{2, 20} : Point{16, 20}, o);
+    const int left = is_transistor(part.symbol) ? -20 : part.has_controlling_pair ? -26 : -16;
+    const Point corner = turn({left, -20}), other = turn({is_transistor(part.symbol) ? 2 : 16, 20});
     if (part.symbol == Symbol::note) return shape;
     shape.outline.include(corner), shape.outline.include(other);
     return shape;
@@ -125,6 +120,11 @@ void finish(const Level& level, const Part& part, const NetStyles& styles, Shape
 }
 
 }  // namespace
+
+PlaneMap map_of(Orientation o) {
+    if (o.is_horizontal) return {0, o.is_flipped ? -1 : 1, -1, 0};
+    return {o.is_mirrored ? -1 : 1, 0, 0, o.is_flipped ? -1 : 1};
+}
 
 int text_width(std::string_view text) {
     int width = 0;

@@ -37,6 +37,14 @@ struct Orientation {
     bool is_horizontal = false;  ///< a device with two ends lies
 };
 
+/// The linear map from an upright part to one that lies as `Orientation` says: x' = xx x + xy y, y' = yx x + yy y.
+struct PlaneMap {
+    int xx = 1, xy = 0, yx = 0, yy = 1;
+    Point operator()(Point p) const { return {xx * p.x + xy * p.y, yx * p.x + yy * p.y}; }
+};
+/// The controlling pins of a lying device are below it, because its texts are above.
+PlaneMap map_of(Orientation);
+
 struct Shape {
     std::vector<ShapePin> pins;  ///< as in the part
     std::vector<Text> texts;

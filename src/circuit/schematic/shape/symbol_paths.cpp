@@ -17,7 +17,11 @@ SymbolPath mos_path(const Part& part) {
 
 SymbolPath bipolar_path(const Part& part) {
     const bool is_p = part.symbol == Symbol::pnp;
-    return {"M-30 0H-12M-12-15V15M-12-6L0-16V-30M-12 6L0 16V30", is_p ? "M-10-7.6l8-2.6l-4-4.2z" : "M-1 15.2l-8.200-2.600l4-4.600z"};
+    SymbolPath out;
+    out.lines = "M-30 0H-12M-12-15V15M-12-6L0-16V-30M-12 6L0 16V30";
+    if (part.pins.size() > 3) out.lines += "M-6 0H10";  // the substrate, apart from the base
+    out.solid = is_p ? "M-10-7.6l8-2.6l-4-4.2z" : "M-1 15.2l-8.200-2.600l4-4.600z";
+    return out;
 }
 
 /// A circle or a diamond with signs of a voltage, or with the arrow of a current.
@@ -27,7 +31,7 @@ SymbolPath source_path(const Part& part) {
     SymbolPath out;
     out.lines = is_controlled ? "M0-30V-16L14 0L0 16V30M0-16L-14 0L0 16" : "M0-30V-14M0 14V30M0-14a14 14 0 1 1 0 28a14 14 0 1 1 0-28";
     if (is_voltage)
-        out.lines += "M-3-6H3M0-9V-3M-3 6H3";
+        out.signs = {{{0, -6}, true}, {{0, 6}, false}};
     else
         out.lines += "M0-8V4", out.solid = "M0 9l-4-7h8z";
     return out;
@@ -73,6 +77,7 @@ SymbolPath symbol_path(const Part& part) {
         const int y = others == 2 ? 20 * place - 10 : (place - (others - 1) / 2) * 10;
         out.lines += fmt::format("M-30 {}H-16", y);
     }
+    if (part.has_controlling_pair) out.signs.push_back({{-22, -15}, true}), out.signs.push_back({{-22, 15}, false});
     return out;
 }
 
