@@ -110,10 +110,14 @@ Result<void> analyse(AnalysisContext& context, const Analysis& analysis, const D
     AnalysisRun run{&c, {}, 0, {}, {}, {}};
     FourierTransforms fourier(*context.circuit);
     PointDispatcher dispatcher(*context.circuit, options, out.saved_curves, measures, c.name == "tran" ? &fourier : nullptr, run, currents);
-    if (options.should_stop) context.should_stop = [&](double progress) { return options.should_stop(c.name, progress); };
+    double last_progress = 0;
+    if (options.should_stop) {
+        context.should_stop = [&](double progress) { return options.should_stop(c.name, last_progress = progress); };
+        context.newton.should_stop = [&] { return options.should_stop(c.name, last_progress); };
+    }
     context.points = &dispatcher;
     auto result = analysis.run(context, c);
-    context.points = nullptr, context.should_stop = {};
+    context.points = nullptr, context.should_stop = {}, context.newton.should_stop = {};
     if (!result) return result.error();
     run.result = std::move(*result);
     for (const auto& number : run.result.numbers) out.numbers.push_back(number);

@@ -2,6 +2,7 @@
 // The interface of an afferent: it responds to a block of force with spikes. One virtual call per block.
 
 #include <cstddef>
+#include <functional>
 #include <string_view>
 
 #include "core/operating_state.hpp"
@@ -66,6 +67,9 @@ struct ResponseBlock {
     std::int64_t overflowed = 0;                      ///< fixed-point results that did not fit their word and were limited
     std::int64_t steps = 0, rejected_steps = 0, newton_iterations = 0;  ///< of circuits: accepted and rejected time steps, iterations
     EnergyUse energy_use = {};
+    /// If not empty: called again and again while a block takes long, as that of a circuit can. If it returns true, respond() ends with an
+    /// error of code `interrupted`, and the state cannot be used any more. Afferents of equations do not call it.
+    std::function<bool()> should_stop = {};
 };
 
 /// The position of a channel among several that share one analog-to-digital converter, which samples them in turn.

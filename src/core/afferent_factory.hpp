@@ -22,6 +22,9 @@ struct AfferentTraits {
     bool ignores_case = false;              ///< of the names of its parameters
     bool is_irregular = false;              ///< its spikes depend on SimulationOptions::seed even without noise
     std::string_view lane_obstacles = {};   ///< for messages: the properties of such afferents that prevent lanes, "netlists"
+    std::string_view spike_probe = {};      ///< of a circuit: the quantity that spikes when it crosses spike_level; it need not be a probe
+    double spike_level = 0;                 ///< V or A
+    std::string_view reason_no_chips = {};  ///< why all its chips are equal although they were requested; "" if they differ, or were not
     std::string_view reason_no_noise = {};  ///< why SimulationOptions::noise has no effect; "" if it has one
 };
 

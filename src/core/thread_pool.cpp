@@ -1,9 +1,15 @@
 #include "core/thread_pool.hpp"
 
 #include <algorithm>
+#include <chrono>
 #include <utility>
 
 namespace corpuscle {
+namespace {
+
+constexpr auto wait_interval = std::chrono::milliseconds(20);  // between calls of `while_waiting`
+
+}  // namespace
 
 ThreadPool::ThreadPool(unsigned threads) : threads_(threads > 0 ? threads : std::max(1U, std::thread::hardware_concurrency())) {}
 
@@ -20,7 +26,7 @@ ThreadPool::~ThreadPool() {
     for (auto& h : workers_) h.join();
 }
 
-void ThreadPool::for_each(std::size_t count, const Task& task) {
+void ThreadPool::for_each(std::size_t count, const Task& task, const std::function<void()>& while_waiting) {
     if (workers_.empty() && threads_ > 1 && count > 1) start_workers();
     if (workers_.empty()) {  // without a lock, to keep the overhead small
         for (std::size_t k = 0; k < count; ++k) task(k, 0);
@@ -35,7 +41,9 @@ void ThreadPool::for_each(std::size_t count, const Task& task) {
     if (!is_single) round_started_.notify_all();
     run_tasks(0);
     std::unique_lock lock(mutex_);
-    round_ended_.wait(lock, [this] { return busy_workers_ == 0; });
+    const auto has_ended = [this] { return busy_workers_ == 0; };
+    while (while_waiting && !round_ended_.wait_for(lock, wait_interval, has_ended)) lock.unlock(), while_waiting(), lock.lock();
+    round_ended_.wait(lock, has_ended);
     if (exception_) std::rethrow_exception(std::exchange(exception_, nullptr));
 }
 

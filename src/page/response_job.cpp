@@ -68,7 +68,7 @@ void ResponseJob::begin_plan() {
 }
 
 /// Simulates the next block of the present afferent, or goes on to the next afferent.
-void ResponseJob::simulate_block() {
+void ResponseJob::simulate_block(const std::atomic<bool>& is_stopped) {
     if (!afferent_) begin_plan();
     const auto block = static_cast<std::size_t>(std::ceil(job_block * force_.clock.rate()));
     const auto count = std::min(block, force_.force.size() - at_);
@@ -77,6 +77,7 @@ void ResponseJob::simulate_block() {
     for (auto& v : values) arrays.push_back(v.data());
     const auto before = spikes_.size();
     ResponseBlock response{spikes_, static_cast<std::uint32_t>(plan_), arrays};
+    response.should_stop = [&is_stopped] { return is_stopped.load(); };
     if (count > 0)
         if (const auto done =
                 simulation_->respond(std::span(padded_).subspan(at_, count + static_cast<std::size_t>(afferent_->delay())), response);
@@ -97,8 +98,8 @@ Result<void> ResponseJob::run(double seconds, const std::atomic<bool>& is_stoppe
         return seconds == 0 || std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count() < seconds;
     };
     for (bool is_first = true; !is_done() && (is_first || has_time()); is_first = false) {  // at least one block, so that it ends
+        if (!is_stopped) simulate_block(is_stopped);
         if (is_stopped) return stopped_error();
-        simulate_block();
     }
     const auto samples = static_cast<double>(std::max<std::size_t>(1, force_.force.size()));
     answer.head["answer"] = name_;

@@ -28,7 +28,7 @@ class ResponseJob {
     std::vector<Json> probe_names_;
 
     void begin_plan();
-    void simulate_block();
+    void simulate_block(const std::atomic<bool>& is_stopped);
     void add_end(MessageWriter& answer) const;
 
 public:

@@ -89,17 +89,19 @@ Result<bool> Row::change(std::vector<std::string> set, const SimulationOptions& 
     return is_carried;
 }
 
-/// Simulates a block in parts of a tenth of a second, between which it can be stopped. `probes`: where their values in the block begin.
+/// Simulates a block in parts of a tenth of a second, between which it can be stopped; a circuit can be stopped within a part, too.
+/// `probes`: where their values in the block begin.
 Result<void> Row::respond(std::span<const double> force, double dt, const std::atomic<bool>& is_stopped, std::vector<double*> probes,
                           ResponseBlock& response) {
     constexpr double part = 0.1;  // s
     const auto samples = static_cast<std::size_t>(std::max(1.0, part / dt));
     response.probes = probes;
+    response.should_stop = [&is_stopped] { return is_stopped.load(); };
     for (std::size_t at = 0; at < force.size() && !is_stopped; at += samples) {
         TRY(afferent_->respond(force.subspan(at, std::min(samples, force.size() - at)), state_, response));
         for (auto& values : probes) values += samples;
     }
-    response.probes = {};
+    response.probes = {}, response.should_stop = {};
     return {};
 }
 

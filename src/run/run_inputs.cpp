@@ -17,8 +17,7 @@ Result<void> run_input(BlockSimulator& simulator, std::span<Sink* const> sinks, 
         if (block.steps == 0) break;
         for (auto* sink : sinks) TRY(sink->block(input, block));
         samples = block.end_sample();
-        const double inputs_done = static_cast<double>(input.index) + simulator.progress();
-        const bool stops = !options.should_continue(inputs_done / static_cast<double>(input.input_count));
+        const bool stops = !options.should_continue(completed_fraction(input, simulator.progress()));
         TRY(simulator.save(stops));
         if (stops) return Error{ErrorCode::interrupted, "interrupted"};
     }

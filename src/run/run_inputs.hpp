@@ -19,7 +19,8 @@ struct RespondOptions {
     Precision precision = Precision::double_precision;
     ThreadPool* pool = nullptr;  ///< threads, or null for only the calling thread; the response does not depend on it
     std::size_t block = 4096;    ///< maximum number of samples in a block; the response does not depend on it
-    /// Called after each block with the completed fraction of the run, 0 to 1. If it returns false, the run stops.
+    /// Called after each block with the completed fraction of the run, 0 to 1, and about 20 times a second within a block that takes long.
+    /// If it returns false, the run stops. All calls are by the thread that runs the run.
     std::function<bool(double)> should_continue = [](double) { return true; };
 
     SimulationOptions for_clock(const Clock& clock) const { return {clock.T(), method, sampled, noise, seed}; }
@@ -41,6 +42,11 @@ struct RunStats {
     /// One error for each netlist and channel that did not converge, with the time after which the netlist gives no spikes on that channel.
     std::vector<Error> diverged;
 };
+
+/// The completed fraction of a run, 0 to 1, from that of the force of this input.
+inline double completed_fraction(const Input& input, double of_force) {
+    return (static_cast<double>(input.index) + of_force) / static_cast<double>(input.input_count);
+}
 
 /// Simulates the afferents of one input: afferents on channels (channels/channel_simulator.cpp) or a skin (skin/skin_simulator.hpp).
 class BlockSimulator {

@@ -37,6 +37,7 @@ Result<AfferentResponse> simulate(const Afferent& afferent, std::span<const doub
     AfferentResponse out{
         {}, std::vector<std::vector<double>>(options.probes.size()), std::vector<RangeViolation>(afferent.ranges().size())};
     ResponseBlock response{out.spikes, 0, arrays, out.range_violations};
+    response.should_stop = options.stop;
     AfferentSimulation simulation(afferent);
     for (std::size_t first = 0; first < force.size(); first += simulated_block) {
         if (options.stop && options.stop()) return Error{ErrorCode::interrupted, "interrupted"};

@@ -29,7 +29,7 @@ public:
 struct SimulateOptions {
     std::span<const std::size_t> probes = {};  ///< indexes into the afferent's probes: those to record
     std::size_t every = 1;                     ///< 1: all samples of a probe are recorded; 2: every second one, beginning with the first
-    std::function<bool()> stop = {};           ///< called once per block; true ends the simulation with an error of code `interrupted`
+    std::function<bool()> stop = {};           ///< called often; true ends the simulation with an error of code `interrupted`
 };
 
 /// The response of one afferent to a complete force.

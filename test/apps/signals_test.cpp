@@ -92,5 +92,31 @@ TEST(Signals, EndAReadThatWaitsForInput) {
         }
 }
 
+// A comparator that chatters takes steps of nanoseconds, so one block of force takes minutes.
+TEST(Signals, EndACircuitThatIsSimulatedSlowly) {
+    const TemporaryFolder folder;
+    const std::string circuit =
+        "chatter\niin 0 m dc 0 force 5u\nrm m 0 1meg\ncm m 0 100p\n"
+        "ecomp g 0 table {v(m)-0.7} = (-1,0) (-0.001,0) (0.001,5) (1,5)\nrg g 0 10k\n"
+        "s1 m 0 g 0 sw\n.model sw sw(ron=1k roff=1g vt=2.5 vh=0.5)\n.ic v(m)=0\n.spike v(g) 2.5\n";
+    folder.write("slow.cir", circuit + ".end\n");
+    folder.write("mc.cir", circuit + ".param r={agauss(1k,1,1)}\nrx m 0 {1e9+r}\n.mc 2\n.end\n");
+    folder.write("slow.toml", "afferent = \"slow.cir\"\nforce = \"press\"\n[[vary]]\nwhat = \"temp\"\nlist = [27, 30]\n");
+    const std::vector<std::vector<std::string>> commands = {
+        {"respond", "press", "--afferent", "slow.cir", "-o", "new"},
+        {"respond", "press", "press", "--afferent", "slow.cir,sa1", "--threads", "2", "--report", "new"},
+        {"respond", "press", "--afferent", "mc.cir", "--copies", "2", "--json"},
+        {"sweep", "slow.toml", "-o", "results"},
+    };
+    for (const auto& command : commands)
+        for (const int signal : {SIGINT, SIGTERM}) {
+            const int status = status_after(signal, folder, command);
+            ASSERT_TRUE(WIFEXITED(status)) << command[0] << ' ' << command[1] << ", signal " << signal << ", status " << status;
+            EXPECT_EQ(WEXITSTATUS(status), 130) << test::read_file(folder / ".err");
+            EXPECT_NE(test::read_file(folder / ".err").find("corpuscle: interrupted"), std::string::npos);
+            EXPECT_FALSE(fs::exists(folder / "new"));
+        }
+}
+
 }  // namespace
 }  // namespace corpuscle

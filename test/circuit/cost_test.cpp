@@ -234,6 +234,17 @@ TEST(Cost, JunctionLeakageIsCounted) {
     EXPECT_NEAR(c.blocks[0].worst_leak.current, 5e-6 * 0.5e-12 + 1e-12 * 3e-6, 1e-6 * 2.5e-18 + 1e-22);
 }
 
+TEST(Cost, TransistorsOfLevelOneAreCounted) {
+    const TemporaryFolder folder;
+    folder.write("x.cir",
+                 "t\nvdd vdd 0 1\nm1 a vdd 0 0 n w=1u l=1u m=3\nm2 a a 0 0 n w=1u l=1u\nr1 vdd a 1k\n.model n nmos (level=1)\n.op\n");
+    const auto ran = test::run_program(folder, "run x.cir --budget --json");
+    ASSERT_EQ(ran.status, 0) << ran.err;
+    const auto top = nlohmann::json::parse(ran.out)["budget"]["blocks"][0];
+    EXPECT_EQ(top["arrays"], 2) << top;
+    EXPECT_EQ(top["unit_transistors"], 4) << top;
+}
+
 TEST(Cost, TheJsonHasTheBudgetAndTheTableItsHeadings) {
     const TemporaryFolder folder;
     folder.write("x.cir", "t\nvdd vdd 0 1\nr1 vdd a 1k\nc1 a 0 2p\ni1 a 0 1u\n.op\n.tran 1n 10n\n");

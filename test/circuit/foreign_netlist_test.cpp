@@ -27,6 +27,59 @@ TEST(ForeignNetlist, PolynomialsOfControlledSourcesHaveSpicesOrderOfTerms) {
     EXPECT_NEAR(run_netlist(loads + "f1 0 x poly(1) va 0 0 4\n.op\n").number("v(x)"), 4, 1e-9);
 }
 
+/// The line and the message of each warning.
+std::string placed_warnings_in(const NetlistRun& run) {
+    std::string out;
+    for (const auto& w : run.warnings()) out += fmt::format("{}: {}\n", w.location.line, w.message);
+    return out;
+}
+
+TEST(ForeignNetlist, FormsOfCdlAreRead) {
+    const auto run = run_netlist(
+        "cdl\n.PARAM\n.SUBCKT HALF IN OUT VSS\n*.PININFO IN:I\nRR0 IN OUT 1k $SUB=VSS $[rpoly] m=2\nRR1 OUT VSS 1k $X=100 $Y=2.5 $D=3\n"
+        ".ENDS\nV1 a 0 3\nXI1 a b 0 / HALF\nXI2 a c 0 /HALF\nRR2 b 0 1meg $T=-79 30 0 0 $X=1 m=1\n.op\n");
+    EXPECT_NEAR(run.number("v(c)"), 2, 1e-9) << "two resistors of 1k are parallel, as m=2 after the notes says";
+    EXPECT_EQ(placed_warnings_in(run),
+              "2: .param has no name=value, so it has no effect\n"
+              "5: '$SUB=VSS': notes of CDL that begin with $ have no effect, nor have those of other lines\n");
+}
+
+TEST(ForeignNetlist, LinesOfSpectreAreNamed) {
+    const auto error_of = [](const std::string& text) {
+        const auto read = Netlist::parse(text, "t.scs", {});
+        return read ? std::string("read") : read.error().text();
+    };
+    const std::string remedy =
+        "is in the language of Spectre, which is not read; write the netlist in that of SPICE: in Virtuoso, with the simulator hspiceD, or "
+        "as "
+        "CDL";
+    EXPECT_EQ(error_of("// generated\nsimulator lang=spectre\nparameters vdd=1\n"), "t.scs:2:1: 'simulator lang=spectre' " + remedy);
+    EXPECT_EQ(error_of("simulator lang=spectre\nglobal 0\n"), "t.scs:1:1: 'simulator lang=spectre' " + remedy);
+    EXPECT_EQ(error_of("title\nglobal 0 vdd!\nparameters VDD=1.8\ntran tran stop=1m\n"), "t.scs:3:1: 'parameters vdd=1.8' " + remedy);
+    const auto run = run_netlist("title\nsimulator lang=spice\nv1 a 0 3\nr1 a 0 1\n.op\n");
+    EXPECT_EQ(run.number("v(a)"), 3);
+    EXPECT_EQ(placed_warnings_in(run), "2: simulator has no effect here\n");
+}
+
+TEST(ForeignNetlist, ARecordingIsNamed) {
+    for (const std::string text : {"time_s,fz_mN\n0.000,6.0\n0.002,6.0\n", "t\tF\n0\t1\n", "0.1;2\n0.2;3\n", "0 1\n1 2\n"}) {
+        const auto read = Netlist::parse(text, "touch.csv", {});
+        ASSERT_FALSE(read);
+        EXPECT_NE(read.error().text().find("is a line of a recording and not of a netlist"), std::string::npos) << read.error().text();
+        EXPECT_EQ(read.error().further, nullptr);
+    }
+}
+
+TEST(ForeignNetlist, ChipsThatCannotDifferAreNamed) {
+    const std::string text = "t\nv1 a 0 1\nr1 a 0 1\nm1 a a 0 0 n w=1u l=1u\n.op\n.mc 3\n";
+    const std::string model = ".model n nmos (level=1)\n";
+    const std::string warning =
+        ".mc: all chips are equal, because nothing in the netlist varies: it has no UICM transistor (level=80), no tolerance and no random "
+        "value\n";
+    EXPECT_EQ(placed_warnings_in(run_netlist(text + model)), "6: " + warning);
+    EXPECT_EQ(warnings_in(run_netlist(text + model + ".param x={agauss(1,0.1,1)}\nr2 a 0 {x}\n")), "");
+}
+
 TEST(ForeignNetlist, AResistanceMayDependOnVoltages) {
     const auto run = run_netlist("divider\nv1 in 0 6\nr1 in x 1k\nr2 x 0 R={1k*v(c)}\nvc c 0 2\n.op\n");
     EXPECT_NEAR(run.number("v(x)"), 4, 1e-9);

@@ -149,5 +149,43 @@ TEST(NetlistOverridesProgram, ListShowsTheParametersOfAChip) {
     EXPECT_EQ(std::count_if(all.begin(), all.end(), [](const Json& p) { return p["name"] == "vtn_shift"; }), 0);
 }
 
+// The level of this comparator is crossed for about 20 us, and the force has a sample each 100 us.
+constexpr const char* short_pulses = R"(relaxation
+iin 0 m dc 0 force 1u
+cm m 0 1n
+bout out 0 v=1/(1+exp(-(v(m)-0.5)*100))
+s1 m 0 m 0 sw
+.model sw sw(vt=0.4 vh=0.3 ron=3k roff=1g)
+.ic v(m)=0
+.spike v(out) 0.9
+.tran 1u 1 0 10u
+.end
+)";
+
+TEST(RespondProgram, SpikesThatTheCurveOfTheReportDoesNotShowAreCounted) {
+    const test::TemporaryFolder folder;
+    folder.write("own.cir", short_pulses);
+    const auto ran = test::run_program(folder, "respond press --afferent own.cir --report own.html");
+    ASSERT_EQ(ran.status, 0) << ran.err;
+    const auto page = test::read_file(folder / "own.html");
+    EXPECT_NE(page.find("do not show in the curve of v(out): their pulses are shorter than the time between its samples, 100 us"),
+              std::string::npos);
+    ASSERT_EQ(test::run_program(folder, "respond press --afferent sa1-circuit --report sa1.html").status, 0);
+    EXPECT_EQ(test::read_file(folder / "sa1.html").find("do not show in the curve"), std::string::npos);
+}
+
+TEST(RespondProgram, ChipsThatCannotDifferAndFilesWithoutAPathAreNamed) {
+    const test::TemporaryFolder folder;
+    folder.write("own.cir", short_pulses);
+    folder.write("noext", short_pulses);
+    const auto equal = test::run_program(folder, "respond press --afferent own.cir --mismatch 3 --copies 3");
+    EXPECT_EQ(equal.status, 0);
+    EXPECT_NE(equal.err.find("warning: own.cir: all chips are equal, because nothing in the netlist varies"), std::string::npos)
+        << equal.err;
+    const auto unknown = test::run_program(folder, "respond press --afferent noext");
+    EXPECT_EQ(unknown.err, "corpuscle: unknown afferent 'noext'; for the file noext write ./noext\n");
+    EXPECT_EQ(test::run_program(folder, "respond press --afferent ./noext").status, 0);
+}
+
 }  // namespace
 }  // namespace corpuscle

@@ -76,11 +76,45 @@ TEST(NetlistLines, MayHaveNonAsciiCharactersOnlyInCommentsAndTitles) {
         EXPECT_EQ(error_of("C1 a 0 1" + micro + " x=3").substr(0, 31),
                   fmt::format("dir/t.cir:2:{}: c1: unknown para", 10 + micro.size()).substr(0, 31));
     }
-    EXPECT_EQ(error_of("R\xe9 a 0 1"), "dir/t.cir:2:2: byte 0xE9: a netlist must be plain ASCII outside comments");
+    EXPECT_EQ(error_of("R\xe9 a 0 1"),
+              "dir/t.cir:2:2: byte 0xE9, '\xc3\xa9': a netlist must be plain ASCII outside comments; write e instead");
+    EXPECT_EQ(error_of("R1 v_m\xc3\xa4m 0 1"),
+              "dir/t.cir:2:7: byte 0xC3, '\xc3\xa4': a netlist must be plain ASCII outside comments; write a instead");
+    EXPECT_EQ(error_of("R1 \xce\xb2 0 1"),
+              "dir/t.cir:2:4: byte 0xCE, '\xce\xb2': a netlist must be plain ASCII outside comments; write a name without it");
+    EXPECT_EQ(error_of("R1 a\x07 0 1"), "dir/t.cir:2:5: byte 0x07: a control character; remove it");
     EXPECT_EQ(error_of(std::string("R1 a 0\0 1", 9)), "dir/t.cir:2:7: byte 0x00: a netlist is text; is this UTF-16? Save it as UTF-8");
     const auto utf16 = Netlist::parse(std::string("\xff\xfet\0i\0", 6), "t.cir", {});
     ASSERT_FALSE(utf16);
     EXPECT_EQ(utf16.error().text(), "t.cir:1:4: byte 0x00: a netlist is text; is this UTF-16? Save it as UTF-8");
+}
+
+// LTspice writes it between the letter of an element and its name.
+TEST(NetlistLines, MayHaveASectionSignInNames) {
+    for (const std::string section : {"\xa7", "\xc2\xa7"}) {
+        const auto c = circuit("V" + section + "Req a 0 5\nB1 b 0 V=I(V" + section + "Req)\nR1 b 0 1\nR2 a 0 1");
+        EXPECT_EQ(element_in(c, "v_req").waveform.dc, 5);
+    }
+}
+
+TEST(NetlistLines, MayEndAsOnOldMacintoshes) {
+    const auto netlist = Netlist::parse("title\rR1 a 0 1k\r* comment\rR2 a 0\r+ 2k\r.end\r", "t.cir", {});
+    ASSERT_TRUE(netlist) << netlist.error().text();
+    EXPECT_EQ(netlist->elaborate()->title, "title");
+    EXPECT_EQ(netlist->elaborate()->elements.size(), 2U);
+    const auto mixed = Netlist::parse("title\nR1 a 0 1k\rR2 a 0 2k\n", "t.cir", {});
+    ASSERT_FALSE(mixed);
+    EXPECT_EQ(mixed.error().text(),
+              "t.cir:2:10: byte 0x0D: some lines end with a carriage return alone and others do not; end all with a line feed");
+}
+
+TEST(Netlist, ThousandsOfUnknownSubcircuitsAreReportedFast) {
+    std::string text;
+    for (int k = 0; k < 5000; ++k)
+        text += fmt::format(".subckt cell_of_library_{0} a b\nr1 a b 1\n.ends\nx{0} a 0 cell_of_lbrary_{0}\n", k);
+    const auto start = std::chrono::steady_clock::now();
+    EXPECT_EQ(error_of(text + "r1 a 0 1"), "dir/t.cir:5:8: x0: unknown subcircuit 'cell_of_lbrary_0'; did you mean 'cell_of_library_0'?");
+    EXPECT_LT(std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count(), 3);
 }
 
 TEST(NetlistLines, AreReadInTimeProportionalToTheirLength) {

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <filesystem>
 #include <stdexcept>
+#include <thread>
 
 namespace corpuscle {
 namespace {
@@ -43,6 +44,17 @@ TEST(ThreadPool, StartsItsThreadsForTheFirstTasksThatCanRunAtOnce) {
     pool.for_each(2, count);
     EXPECT_EQ(threads_of_process(), before + 2);
     EXPECT_EQ(done, 7);
+}
+
+TEST(ThreadPool, TheCallerIsCalledWhileItWaits) {
+    ThreadPool pool(2);
+    std::atomic<bool> was_called = false, has_begun = false;
+    const auto wait = [&](std::size_t, unsigned thread) {
+        has_begun = has_begun || thread == 1;
+        while (thread == 1 ? !was_called : !has_begun) std::this_thread::yield();  // the caller ends first
+    };
+    pool.for_each(2, wait, [&] { was_called = true; });
+    EXPECT_TRUE(was_called);
 }
 
 TEST(ThreadPool, AnExceptionReachesTheCallerAndThePoolContinues) {

@@ -341,6 +341,19 @@ TEST(SweepFile, ErrorsGiveTheLocationAndTheRemedy) {
     }
 }
 
+TEST(SweepFile, MismatchOfANetlistInWhichNothingVariesIsRefused) {
+    const SweepFolder w;
+    const std::string netlist = "level 1\nv1 a 0 1\nm1 a a 0 0 n w=1u l=1u\n.model n nmos (level=1)\n.op\n";
+    w.write("own.cir", netlist);
+    const std::string sweep = "netlist = 'own.cir'\nsamples = 2\nmeasures = ['i(v1)']\n[[vary]]\nwhat = 'mismatch'\n";
+    EXPECT_EQ(
+        w.refusal(sweep),
+        "5:8: mismatch: nothing in the netlist varies, so all chips would be equal: it has no UICM transistor (level=80), no tolerance "
+        "and no random value; remove this axis");
+    w.write("own.cir", netlist + "r1 a 0 {agauss(1k,10,1)}\n");
+    EXPECT_EQ(w.refusal(sweep), "");
+}
+
 TEST(SweepFile, RenamedKeysAreRefusedWithTheirNewNames) {
     const SweepFolder w;
     for (const auto& [old_key, new_key] : sweeps::renamed_keys)

@@ -73,18 +73,20 @@ class CircuitAfferent final : public Afferent {
     mutable std::vector<std::unique_ptr<StreamingTransient>> idle_;  // transients that no call of respond() uses; guarded by guard_
 
     // Each concurrent call of respond() uses a transient of its own.
-    Result<std::unique_ptr<StreamingTransient>> borrow() const {
+    Result<std::unique_ptr<StreamingTransient>> borrow(const std::function<bool()>& should_stop = {}) const {
         {
             const std::lock_guard lock(guard_);
             if (!idle_.empty()) {
                 auto transient = std::move(idle_.back());
                 idle_.pop_back();
+                transient->set_stop(should_stop);
                 return transient;
             }
         }
-        return StreamingTransient::make(*factory_, T_, chip_, copy_);
+        return StreamingTransient::make(*factory_, T_, chip_, copy_, should_stop);
     }
     void give_back(std::unique_ptr<StreamingTransient> transient) const {
+        transient->set_stop({});
         const std::lock_guard lock(guard_);
         idle_.push_back(std::move(transient));
     }
@@ -119,8 +121,9 @@ public:
         TRY(check_block(factory_->circuit->file, format_, state.values.size(), state, force));
         for (double* values : response.probes) std::fill_n(values, force.size(), std::numeric_limits<double>::quiet_NaN());
         if (force.empty()) return {};
-        auto transient = TRY(borrow());
+        auto transient = TRY(borrow(response.should_stop));
         auto done = respond_with(*transient, force, state, response);
+        if (transient->is_stopped()) done = interrupted_error();
         give_back(std::move(transient));
         return done;
     }
@@ -227,6 +230,9 @@ AfferentTraits CircuitAfferentFactory::traits(const AfferentPlan&) const {
             .is_implementation = true,
             .ignores_case = true,
             .lane_obstacles = "netlists",
+            .spike_probe = spike_output.quantity.name,
+            .spike_level = spike_output.level,
+            .reason_no_chips = reason_no_variation(*circuit),
             .reason_no_noise = "a netlist has no model membrane"};
 }
 

@@ -12,10 +12,12 @@ constexpr double stop_time_unshifted = 1e5;    // s, end of a transient with sou
 }  // namespace
 
 Result<std::unique_ptr<StreamingTransient>> StreamingTransient::make(const CircuitAfferentFactory& factory, double T,
-                                                                     const std::optional<ChipSample>& chip, std::uint64_t copy) {
+                                                                     const std::optional<ChipSample>& chip, std::uint64_t copy,
+                                                                     const std::function<bool()>& should_stop) {
     auto context = TRY(AnalysisContext::make(factory.circuit));
     std::unique_ptr<StreamingTransient> out(new StreamingTransient(factory, T));
     out->context_ = std::move(context);
+    out->set_stop(should_stop);
     if (chip) out->context_->apply_variation(*chip);
     auto& system = out->context_->system;
     system.start_transient(factory.times.step > 0 ? factory.times.step : T, factory.times.stop > 0 ? factory.times.stop : 1);
@@ -23,6 +25,7 @@ Result<std::unique_ptr<StreamingTransient>> StreamingTransient::make(const Circu
     for (const auto& d : system.devices()) out->is_time_dependent_ |= d->is_time_dependent();
     system.set_force_input(&out->force_);
     out->solve_rest();
+    if (out->is_stopped()) return interrupted_error();  // the operating point is then not that at rest
     auto plan = factory.plan;
     plan.noise.stream = noise_stream_of(chip, copy);
     plan.stop = out->is_time_dependent_ ? stop_time_unshifted : stop_time;
@@ -81,6 +84,7 @@ Result<void> StreamingTransient::begin(std::span<const double> force) {
 }
 
 Result<void> StreamingTransient::step() {
+    if (is_stopped()) return interrupted_error();
     if (!is_time_dependent_ && transient_->time() > max_time_before_shift) shift_origin();
     if (is_time_dependent_ && transient_->time() >= stop_time_unshifted)
         return error_at({factory_.circuit->file}, "a netlist whose sources depend on time runs for at most {:g} s", stop_time_unshifted);

@@ -29,15 +29,19 @@ class StreamingTransient {
     std::vector<double> raise_force_from_rest(double force);
 
 public:
-    /// `copy`: number of a copy of the nominal circuit, which has noise of its own.
+    /// `copy`: number of a copy of the nominal circuit, which has noise of its own. `should_stop`: see set_stop().
     static Result<std::unique_ptr<StreamingTransient>> make(const CircuitAfferentFactory&, double T, const std::optional<ChipSample>& chip,
-                                                            std::uint64_t copy = 0);
+                                                            std::uint64_t copy = 0, const std::function<bool()>& should_stop = {});
     StreamingTransient(const StreamingTransient&) = delete;
     /// Switches to another chip of the same netlist. The elimination order of the matrix does not change.
     void set_chip(const ChipSample& chip);
 
     /// Restarts from the operating point under the first of these samples (N), which begin the force.
     Result<void> begin(std::span<const double> force);
+    /// Sets a function that is called in each time step and in each iteration of an operating point. If it returns true, begin() and step()
+    /// fail, and is_stopped() is true. Empty: nothing stops them.
+    void set_stop(const std::function<bool()>& should_stop) { context_->newton.should_stop = should_stop; }
+    bool is_stopped() const { return context_->newton.is_stopped(); }
     void append_force(std::span<const double> force) { force_.append(force); }
     /// Takes one time step. A spike within the step becomes the pending spike.
     Result<void> step();

@@ -196,8 +196,8 @@ void Batch::decide_steps(std::uint8_t needs_error, std::uint8_t diverged, const 
 
 Result<void> Batch::run() {
     for (std::size_t l = 0; l < lanes_.size(); ++l) fill(l);
-    for (long round = 0;; ++round) {
-        if (round % 64 == 0 && options_.should_stop && options_.should_stop()) return Error{ErrorCode::interrupted, "interrupted"};
+    for (;;) {
+        if (options_.should_stop && options_.should_stop()) return Error{ErrorCode::interrupted, "interrupted"};
         lanes::SolveCall solve{};
         lanes::StepCall step{};
         const auto working = prepare(solve, step);

@@ -29,10 +29,10 @@ Result<void> simulate(const Chip& chip, const BatchOptions& options, std::vector
     std::vector<double> force(chip.force.begin(), chip.force.end());
     force.insert(force.end(), static_cast<std::size_t>(afferent->delay()), force.back());
     for (std::size_t at = 0; at < force.size() && !out.hit_iteration_limit; at += samples_per_block) {
-        if (options.should_stop && options.should_stop()) return Error{ErrorCode::interrupted, "interrupted"};
         const auto count = std::min(samples_per_block, force.size() - at);
         const auto first = state.step - afferent->delay();
         ResponseBlock block{spikes, 0, rows, out.range_violations};
+        block.should_stop = options.should_stop;
         const auto done = afferent->respond(std::span(force).subspan(at, count), state, block);
         out.stats.steps += block.steps, out.stats.rejected += block.rejected_steps, out.stats.iterations += block.newton_iterations;
         out.energy_use += block.energy_use;

@@ -29,7 +29,7 @@ void add_areas(const Circuit& circuit, const Blocks& blocks, Cost& out) {
             block.area += *area;
         else
             ++out.unknown_areas;
-        if (!has_role(e, Role::transistor)) continue;
+        if (e.letter != 'm') continue;
         ++block.transistors;
         block.unit_transistors += static_cast<std::size_t>(std::ceil(value_or(e.values, "m", 1) * value_or(e.values, "stack", 1)));
     }

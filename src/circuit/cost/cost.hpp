@@ -24,10 +24,10 @@ struct Leakage {
 /// Area and leakage of one block.
 struct BlockCost {
     std::string name;
-    std::size_t transistors = 0;       ///< number of transistors; an array counts as one
+    std::size_t transistors = 0;       ///< number of MOS transistors; an array counts as one
     std::size_t unit_transistors = 0;  ///< number of unit transistors that these consist of
     Area area;
-    Leakage worst_leak;  ///< of the transistor with the largest leakage current; its name is "" if the block has no transistor
+    Leakage worst_leak;  ///< of the transistor with the largest leakage current; its name is "" if the block has no UICM transistor
 };
 
 /// The cost of a complete circuit.

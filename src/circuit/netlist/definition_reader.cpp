@@ -70,7 +70,7 @@ void keep_last_values(Statement& s, std::vector<Error>& warnings) {
 }  // namespace
 
 Result<void> read_parameters(const Statement& s, SubcktDef& body, std::vector<Error>& warnings) {
-    if (s.pairs.empty()) return error_at(s.line.location(), "{}: expected name=value", s.text(0));
+    if (s.pairs.empty()) warnings.push_back(error_at(s.line.location(), "{} has no name=value, so it has no effect", s.text(0)));
     for (const auto& pair : s.pairs) {
         const std::string name(s.text(pair.name));
         if (const auto open = name.find('('); open != std::string::npos) {

@@ -31,6 +31,7 @@ class CircuitElaborator {
     std::unordered_map<std::string, int> ports_in_ic_;
     /// Whether a subcircuit uses a name that an X line gives and its .subckt line does not.
     std::map<std::pair<const SubcktDef*, std::string>, std::optional<bool>> used_names_;
+    std::map<std::string, std::string> suggestions_;  // by the name of an unknown subcircuit
 
 public:
     /// `overrides`: with the values of the .set lines. `changes_values`: true if values differ from those of the netlist as written.
@@ -220,25 +221,35 @@ private:
         return elaborate_instance(top_, definition_line_);
     }
 
-    /// The words of an X line after its name: the nodes, then the name of the subcircuit.
+    /// The words of an X line after its name: the nodes, then the name of the subcircuit, before which CDL has a slash.
     static std::vector<Word> instance_words(const Statement& s) {
         std::vector<Word> words;
         for (std::size_t k = 1; k < s.words.size(); ++k)
-            if (s.text(k) != "params:") words.push_back(s.words[k]);
+            if (s.text(k) != "params:" && s.text(k) != "/") words.push_back(s.words[k]);
+        if (!words.empty() && s.text(words.back()).starts_with('/')) ++words.back().at, --words.back().size;
         return words;
     }
 
     /// Finds the definition of the subcircuit of this name, in the scope or in one that encloses it.
-    static Result<void> find_body(Scope& scope, const Statement& s, const Word& name, Scope& inner) {
-        std::vector<std::string_view> known;
+    Result<void> find_body(Scope& scope, const Statement& s, const Word& name, Scope& inner) {
         for (Scope* f = &scope; f; f = f->enclosing) {
             if (const auto at = f->definition->subcircuits.find(s.text(name)); at != f->definition->subcircuits.end()) {
                 inner.definition = at->second.get(), inner.enclosing = f;
                 return {};
             }
-            for (const auto& [subcircuit, body] : f->definition->subcircuits) known.push_back(subcircuit);
         }
-        return error_at(s.location(name), "{}: unknown subcircuit '{}'{}", s.text(0), s.text(name), did_you_mean(s.text(name), known));
+        return error_at(s.location(name), "{}: unknown subcircuit '{}'{}", s.text(0), s.text(name),
+                        similar_subcircuit(scope, s.text(name)));
+    }
+    /// The suggestion for an unknown subcircuit. Each search compares all names, so only the first names are searched for, each once.
+    std::string similar_subcircuit(const Scope& scope, std::string_view name) {
+        constexpr std::size_t max_suggestions = 20;
+        const auto [at, is_new] = suggestions_.try_emplace(std::string(name));
+        if (!is_new || suggestions_.size() > max_suggestions) return at->second;
+        std::vector<std::string_view> known;
+        for (const Scope* f = &scope; f; f = f->enclosing)
+            for (const auto& [subcircuit, body] : f->definition->subcircuits) known.push_back(subcircuit);
+        return at->second = did_you_mean(name, known);
     }
 
     /// Connects the ports of the subcircuit to the nodes that the X line names.

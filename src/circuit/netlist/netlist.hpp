@@ -117,6 +117,10 @@ struct Circuit {
 /// off without effect, .ac without an AC source, pulses longer than their period, and a .tran whose STEP is longer than STOP. There is one
 /// warning of each kind for all elements, located at the first of them, and one for each such node and .tran.
 std::vector<Error> netlist_warnings(const Circuit&);
+/// True if the circuit is not the same on each chip: it has UICM transistors, random values or noise.
+bool varies_with_chip(const Circuit&);
+/// Why all chips of .mc or of the mismatch override are equal; "" if they differ, or if neither is given.
+std::string_view reason_no_variation(const Circuit&);
 
 /// True for a number of .options that has an effect here.
 bool is_numeric_option(std::string_view name);

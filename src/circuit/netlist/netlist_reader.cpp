@@ -111,6 +111,8 @@ private:
     Result<void> take_title(LogicalLineReader& lines) {
         auto title = TRY(lines.title());
         out_.title = std::string(trimmed(title));
+        if (const auto title_in_small = lower(out_.title); is_spectre(title_in_small) || is_row_of_numbers(title_in_small))
+            return refuse_other_language({title_in_small, {{0, 1, 1}}, std::make_shared<const std::string>(out_.file), {}});
         if (looks_like_statement(out_.title))
             out_.warnings.push_back(error_at({out_.file, 1, 1}, "the first line is the title, so '{}' is not read as a statement",
                                              std::string_view(out_.title).substr(0, 40)));
@@ -146,7 +148,12 @@ private:
 
     Result<void> statement(LogicalLineReader& lines, LogicalLine line) {
         if (out_.statements.size() >= max_elements) return too_many_statements(line.location());
-        if (line.text[0] != '.') return keep(element(std::move(line)));
+        if (line.text[0] != '.') {
+            TRY(refuse_other_language(line));
+            if (begins_with_word(line.text, "simulator")) return without_effect_here(lines, std::move(line));
+            warn_about_drawing_notes(line);
+            return keep(element(std::move(line)));
+        }
         const std::string word = lower(std::string_view(line.text).substr(0, line.text.find_first_of(" \t('\"{")));
         const auto* row = find_row(word);
         if (row == nullptr) return keep(unknown(word, line.location()), Refusals::Kind::directive);
@@ -159,6 +166,31 @@ private:
         auto ok = (this->*row->read)(lines, std::move(line));
         if (row->after_error == AfterError::ends) return ok;
         return keep(std::move(ok), is_missing ? Refusals::Kind::directive : Refusals::Kind::other);
+    }
+
+    static bool begins_with_word(std::string_view text, std::string_view word) {
+        return text.starts_with(word) && (text.size() == word.size() || text[word.size()] == ' ' || text[word.size()] == '\t');
+    }
+    /// Returns an error if a line shows that the file is not a netlist of SPICE.
+    static Result<void> refuse_other_language(const LogicalLine& line) {
+        if (is_spectre(line.text))
+            return error_at(line.location(),
+                            "'{}' is in the language of Spectre, which is not read; write the netlist in that of SPICE: in Virtuoso, with "
+                            "the simulator hspiceD, or as CDL",
+                            std::string_view(line.text).substr(0, 40));
+        if (is_row_of_numbers(line.text))
+            return error_at(line.location(),
+                            "'{}' is a line of a recording and not of a netlist; give a recording as the force, and the "
+                            "netlist as the afferent: corpuscle respond touch.csv --afferent own.cir",
+                            std::string_view(line.text).substr(0, 40));
+        return {};
+    }
+    /// Warns once that notes such as $X=100 have no effect.
+    void warn_about_drawing_notes(const LogicalLine& line) {
+        if (line.drawing_note.empty() || !out_.marks.insert("$").second) return;
+        out_.warnings.push_back(error_at(line.location(),
+                                         "'{}': notes of CDL that begin with $ have no effect, nor have those of other lines",
+                                         trimmed(line.drawing_note)));
     }
 
     /// Keeps the error of a statement for later, so that the following statements are also read.

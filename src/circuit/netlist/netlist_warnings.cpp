@@ -9,7 +9,7 @@
 namespace corpuscle::circuit {
 namespace {
 
-constexpr int max_suggestions = 20;     // similar names are searched for so many nodes: each search compares all nodes
+constexpr int max_suggestions = 20;     // number of nodes for which similar names are searched; a search compares all nodes
 constexpr double max_gate_size = 1e-3;  // m; a larger w or l was probably meant in micrometres
 
 /// One warning for all elements for which holds() is true, located at the first of them. Its text is message(first element).
@@ -89,6 +89,14 @@ void warn_about_mismatch(std::vector<Error>& out, const Circuit& c) {
         [&](const Element& e) {
             return fmt::format("{} of its model has no effect; only UICM (level=80) has mismatch", unused_mismatch(c, e));
         });
+}
+
+void warn_about_equal_chips(std::vector<Error>& out, const Circuit& c) {
+    const auto reason = reason_no_variation(c);
+    if (reason.empty()) return;
+    for (const auto& directive : c.directives_named("mc") | std::views::take(1))
+        return out.push_back(error_at(directive.location, ".mc: {}", reason));
+    out.push_back(error_at({c.file}, "--mismatch: {}", reason));
 }
 
 bool has_initial_value(const Element& e) { return has_role(e, Role::capacitor) || has_role(e, Role::inductor); }
@@ -188,10 +196,21 @@ std::string warning_for(std::string_view unit, const SpiceNumber& number, std::s
 std::vector<Error> netlist_warnings(const Circuit& c) {
     std::vector<Error> out;
     warn_about_dangling_nodes(out, c);
-    warn_about_sizes(out, c), warn_about_mismatch(out, c), warn_about_missing_ac(out, c), warn_about_pulses(out, c),
-        warn_about_tran_times(out, c), warn_about_op_words(out, c);
+    warn_about_sizes(out, c), warn_about_mismatch(out, c), warn_about_equal_chips(out, c), warn_about_missing_ac(out, c),
+        warn_about_pulses(out, c), warn_about_tran_times(out, c), warn_about_op_words(out, c);
     if (c.has_directive("tran")) warn_about_initial_conditions(out, c);
     return out;
+}
+
+bool varies_with_chip(const Circuit& c) {
+    const auto varies = [](const Element& e) { return has_role(e, Role::transistor) || e.waveform.shape == Waveform::Shape::noise; };
+    return c.has_random_values || c.options.contains("noisefmax") || std::ranges::any_of(c.elements, varies);
+}
+
+std::string_view reason_no_variation(const Circuit& c) {
+    if ((!c.mismatch_seed && !c.has_directive("mc")) || varies_with_chip(c)) return "";
+    return "all chips are equal, because nothing in the netlist varies: it has no UICM transistor (level=80), no tolerance and no random "
+           "value";
 }
 
 void warn_about_units(const Statement& s, std::vector<Error>& warnings) {

@@ -19,6 +19,7 @@ struct LogicalLine {
     std::shared_ptr<const std::string> file;  ///< path; null if the line was not read from a file
 
     std::vector<std::uint32_t> capitals;  ///< offsets of capital F and M, which users often take for farad and mega
+    std::string drawing_note = {};        ///< the first note of CDL about the drawing, " $X=100", which is not in the text; "": none
 
     /// The location in the file of the character at this offset of the text.
     SourceLocation location(std::size_t at = 0) const;
@@ -36,6 +37,7 @@ class LogicalLineReader {
     char quote_ = 0;              // the quote that is open at the end of next_; 0 if no quote is open
     std::uint32_t quote_at_ = 0;  // its offset in next_.text
     bool has_next_ = false;       // true if next_ has begun
+    char line_end_ = '\n';
 
 public:
     LogicalLineReader(std::string_view text, std::shared_ptr<const std::string> file);

@@ -178,6 +178,7 @@ bool NewtonSolver::solve(std::vector<double>& x, const NodeClamps& clamps, int m
     bool is_close = false;  // the last step was below the tolerances
     singular_unknown = -1;
     for (int k = 0; k < (max_iterations > 0 ? max_iterations : tolerances.itl1); ++k) {
+        if (is_stopped()) return false;
         system.eval(x, context, limiting_state, evaluation);
         ++iterations;
         for (std::size_t n = 0; n < nodes && !clamps.conductance.empty(); ++n) {

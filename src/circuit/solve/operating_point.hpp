@@ -1,6 +1,8 @@
 #pragma once
 // The DC operating point of a circuit: f(x) = 0, by Newton's method, or by continuation methods if Newton's method diverges.
 
+#include <functional>
+
 #include "circuit/solve/system.hpp"
 
 namespace corpuscle::circuit {
@@ -45,10 +47,12 @@ struct NewtonSolver {
     int iterations = 0;         ///< of all calls of solve(); set to 0 by the caller
     int singular_unknown = -1;  ///< unknown at which the matrix of the last solve() was singular; -1: not singular, or not known
     std::vector<double> step;   ///< the last Newton step
+    std::function<bool()> should_stop = {};  ///< called in each iteration of solve(); if it returns true, solve() fails
 
     NewtonSolver(const System&, const Tolerances&);
     /// The smallest residual that counts: A for the equation of a node, which is a sum of currents; V for that of a branch current.
     double floor_of(std::size_t equation) const;
+    bool is_stopped() const { return should_stop && should_stop(); }
     bool is_balanced() const;  ///< true if the residual of the last evaluation is below the tolerances
     /// Iterates from x; afterwards x is the last iterate. A max_iterations of 0 means itl1. Returns true if the iterations converged.
     bool solve(std::vector<double>& x, const NodeClamps& = {}, int max_iterations = 0);
@@ -58,7 +62,7 @@ struct NewtonSolver {
 
 /// Finds an operating point. The search starts from the unknowns in `start`; if it is empty, from 0 with the voltages of .nodeset. The
 /// solution includes the effect of `clamps`. Devices with states begin in their present states, which change until they agree with the
-/// solution; they keep those of the last solution found.
+/// solution; they keep those of the last solution found. An error of code `interrupted` if NewtonSolver::should_stop has ended the search.
 Result<OperatingPoint> find_operating_point(NewtonSolver&, std::vector<double> start = {}, NodeClamps clamps = {});
 
 /// The fastest growing disturbance of an unstable operating point.

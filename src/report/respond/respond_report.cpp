@@ -71,9 +71,12 @@ Result<void> RespondReport::begin(const Input& input) {
     const std::size_t max_points =
         std::clamp<std::size_t>(max_points_ / (2 * traces * channels * input.input_count), 16, std::size_t{1} << 20);
     forces_.assign(channels, Envelope(max_points));
-    probes_.clear();
-    for (std::size_t k = 0; wants_probes() && k < channels * groups(); ++k)
-        probes_.emplace_back(afferents.plan_probes(groups_[k % groups()]).size(), Envelope(max_points));
+    probes_.clear(), hidden_pulses_.clear();
+    for (std::size_t k = 0; wants_probes() && k < channels * groups(); ++k) {
+        const auto first_copy = groups_[k % groups()];
+        probes_.emplace_back(afferents.plan_probes(first_copy).size(), Envelope(max_points));
+        hidden_pulses_.emplace_back(afferents.plans()[first_copy], afferents.plan_probes(first_copy));
+    }
     trains_.assign(afferents.size(), {});
     if (recordables_.empty())
         for (std::size_t g = 0; g < groups(); ++g) {
@@ -92,8 +95,11 @@ Result<void> RespondReport::block(const Input& input, const RunBlock& response) 
         for (const double f : response.force[c]) forces_[c].add(f);
     for (std::size_t u = 0; u < probes_.size(); ++u)
         for (std::size_t p = 0; p < probes_[u].size(); ++p)
-            for (std::size_t k = 0; k < response.steps; ++k)
-                probes_[u][p].add(response.probes[afferent_index(u / groups(), u % groups())][p][k]);
+            for (std::size_t k = 0; k < response.steps; ++k) {
+                const double value = response.probes[afferent_index(u / groups(), u % groups())][p][k];
+                probes_[u][p].add(value);
+                if (hidden_pulses_[u].uses(p)) hidden_pulses_[u].add(value);
+            }
     for (const auto& s : response.spikes) trains_[input.afferent_of(s)].push_back(input.clock.time(s.step, s.offset));
     return compared_inputs_ ? compared_inputs_->block(input, response) : Result<void>();
 }
@@ -128,6 +134,16 @@ void RespondReport::add_rate(const Input& input, std::size_t channel, std::size_
                       {"values", rates}});
 }
 
+void RespondReport::add_hidden_notes(const Input& input) {
+    const auto& afferents = input.on_channels();
+    for (std::size_t u = 0; u < hidden_pulses_.size(); ++u) {
+        const auto index = afferent_index(u / groups(), u % groups());
+        if (const auto note = hidden_pulses_[u].note(trains_[index].size(), input.clock.T()); !note.empty())
+            hidden_notes_.push_back(
+                fmt::format("{} on {}: {}", afferents.plans()[groups_[u % groups()]].name, afferents.channel_name(index), note));
+    }
+}
+
 Result<void> RespondReport::end(const Input& input, std::int64_t samples, std::span<const Spike> last) {
     const auto& afferents = input.on_channels();
     Json channels = Json::array(), phases = Json::array();
@@ -145,6 +161,7 @@ Result<void> RespondReport::end(const Input& input, std::int64_t samples, std::s
             add_spikes(input, c, g);
             if (copies_.count > 0) add_rate(input, c, g, samples);
         }
+    add_hidden_notes(input);
     inputs_.push_back({{"name", input.name},
                        {"description", input.description},
                        {"t0", input.clock.t0},
@@ -185,6 +202,7 @@ std::string RespondReport::page(const RunSummary& summary, std::span<const Affer
     }
     for (const auto& i : summary.inputs)
         for (const auto& r : i.notes) texts.push_back(i.name + ": " + r);
+    texts.insert(texts.end(), hidden_notes_.begin(), hidden_notes_.end());
     for (auto& text : grouped_notes(texts)) notes.push_back(std::move(text));
     Json document = {{"inputs", inputs_},
                      {"afferents", afferents},

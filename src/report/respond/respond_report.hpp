@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include "report/envelope.hpp"
+#include "report/respond/hidden_pulses.hpp"
 #include "run/sinks/file_sink.hpp"
 #include "run/summary/run_summary.hpp"
 #include "run/trials/trial_collector.hpp"
@@ -51,6 +52,8 @@ private:
     std::vector<std::size_t> groups_;
     std::vector<Envelope> forces_;               // one per channel, N
     std::vector<std::vector<Envelope>> probes_;  // [channel * groups() + group][probe], of the first copy; empty if no probes are recorded
+    std::vector<HiddenPulses> hidden_pulses_;    // [channel * groups() + group], as probes_
+    std::vector<std::string> hidden_notes_;      // of all inputs
     std::vector<std::vector<double>> trains_;    // spike times of each afferent of the current input, s
     std::uint32_t first_channel_ = 0;            // the current input's first channel, counted over all inputs
 
@@ -61,6 +64,7 @@ private:
     std::uint32_t channels_within(std::size_t max_bytes) const;
     /// The trials_document() of the compared inputs, or null.
     Json compared_inputs_document() const;
+    void add_hidden_notes(const Input&);
     void add_spikes(const Input&, std::size_t channel, std::size_t group);
     void add_rate(const Input&, std::size_t channel, std::size_t group, std::int64_t samples);
     std::vector<AfferentPlan> first_copies_;  // of each group, with the parameters that were drawn for it

@@ -35,6 +35,7 @@ void ChannelOutcome::start(Sources sources) {
     for (const auto& source : sources) add_of(notes, source->name(), source->notes());
     append(warnings, rate_warnings(sources, afferents));
     append(warnings, noise_warnings(afferents, options.noise));
+    append(warnings, equal_chips_warnings(afferents));
 }
 
 void ChannelOutcome::finish(Sources sources, const RunStats& run) {

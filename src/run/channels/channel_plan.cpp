@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 #include <algorithm>
+#include <filesystem>
 #include <limits>
 
 #include "run/afferent_plan.hpp"
@@ -21,11 +22,19 @@ Result<void> check_probes(std::span<const std::string> names, std::span<const st
     return {};
 }
 
+/// Plans an afferent. If its name is unknown, and there is such a file, the error says how to name the file.
+Result<PlannedAfferent> plan_afferent_or_file(const std::string& name, const ChannelPlanRequest& request) {
+    auto planned = plan_any_afferent(name, request.overrides, request.probes);
+    std::error_code status;
+    if (planned || read_afferent_spec(name) || !std::filesystem::is_regular_file(name, status)) return planned;
+    return bad_input(fmt::format("unknown afferent '{0}'; for the file {0} write ./{0}", name));
+}
+
 Result<void> add_afferents(ChannelPlan& plan, const ChannelPlanRequest& request) {
     std::vector<std::vector<RequestedProbe>> found;
     plan.unused.assign(request.overrides.begin(), request.overrides.end());
     for (const auto& name : request.afferents) {
-        auto planned = TRY(plan_any_afferent(name, request.overrides, request.probes));
+        auto planned = TRY(plan_afferent_or_file(name, request));
         if (std::any_of(plan.afferents.begin(), plan.afferents.end(), [&](const auto& a) { return a.name == planned.result.name; }))
             return bad_usage(fmt::format("--afferent {}: {} is given twice", name, planned.result.name));
         keep_unused(plan.unused, planned.unused);

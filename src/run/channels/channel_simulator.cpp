@@ -9,6 +9,7 @@
 
 #include "run/channels/channel_population.hpp"
 #include "run/channels/lookahead_buffer.hpp"
+#include "run/interruption.hpp"
 #include "run/run_inputs.hpp"
 #include "run/simulate.hpp"
 
@@ -54,7 +55,7 @@ public:
 
     Result<void> start(const RespondOptions& options, bool wants_probes) override {
         const auto set = TRY(instruction_set());
-        wants_probes_ = wants_probes;
+        wants_probes_ = wants_probes, should_continue_ = options.should_continue;
         force_ = Frames(population_.channels(), block_size(population_, options, wants_probes));
         const auto run = options.for_clock(input_.clock);
         const auto is_scalar = TRY(place_on_lanes(run, options, set));
@@ -65,6 +66,7 @@ public:
     const Input& input() const override { return input_; }
 
     Result<RunBlock> next(ThreadPool& pool, RunStats& stats) override {
+        interruption_.begin([this, done = completed_fraction(input_, source_.progress())] { return should_continue_(done); });
         TRY(lookahead_.next(source_, force_));
         if (force_.count == 0) return RunBlock{};
         spikes_.clear();
@@ -201,8 +203,9 @@ private:
         return {};
     }
 
-    /// Simulates an afferent for one block. The probes of a netlist that did not converge are NaN from the next block on.
-    void simulate_scalar(ScalarAfferent& scalar) {
+    /// Simulates an afferent for one block. The probes of a netlist that did not converge are NaN from the next block on. `thread`: index
+    /// of this thread in the pool.
+    void simulate_scalar(ScalarAfferent& scalar, unsigned thread) {
         const std::size_t u = scalar.afferent_index;
         std::vector<double*> probe_values;
         if (wants_probes_)
@@ -213,6 +216,7 @@ private:
         scalar.spikes.clear();
         auto& response = scalar.response.emplace(
             ResponseBlock{scalar.spikes, input_.first_afferent + scalar.afferent_index, probe_values, scalar.range_violations});
+        response.should_stop = [this, thread] { return thread == 0 ? interruption_.ask() : interruption_.is_stopped(); };
         if (scalar.diverged)
             for (double* p : probe_values) std::fill_n(p, force_.count, std::numeric_limits<double>::quiet_NaN());
         else if (auto ok = scalar.simulation.respond(force, response); !ok)
@@ -220,7 +224,11 @@ private:
     }
 
     Result<void> simulate_scalars(ThreadPool& pool, RunStats& stats) {
-        pool.for_each(scalars_.size(), [this](std::size_t k, unsigned) { simulate_scalar(scalars_[k]); });
+        pool.for_each(
+            scalars_.size(), [this](std::size_t k, unsigned thread) { simulate_scalar(scalars_[k], thread); },
+            [this] { interruption_.ask(); });
+        interruption_.rethrow();
+        if (interruption_.is_stopped()) return Error{ErrorCode::interrupted, "interrupted"};
         for (auto& s : scalars_) {
             // An afferent whose solver may diverge is left out from now on if it does; any other error ends the run.
             if (s.error && !(s.error->code == ErrorCode::not_converged && population_.plan_of(s.afferent_index).traits().may_diverge))
@@ -293,6 +301,8 @@ private:
     // [afferent of this input][probe][sample of the current block]; empty if no sink wants probes.
     std::vector<std::vector<std::vector<double>>> probe_values_;
     std::int64_t samples_ = 0;  // on each channel, before the current block
+    std::function<bool(double)> should_continue_;
+    Interruption interruption_;
 };
 
 }  // namespace

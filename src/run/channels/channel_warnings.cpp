@@ -16,6 +16,13 @@ std::vector<std::string> noise_warnings(std::span<const AfferentPlan> afferents,
     return warnings;
 }
 
+std::vector<std::string> equal_chips_warnings(std::span<const AfferentPlan> afferents) {
+    std::vector<std::string> warnings;
+    for (const auto& a : afferents)
+        if (const auto reason = a.traits().reason_no_chips; !reason.empty()) warnings.push_back(fmt::format("{}: {}", a.name, reason));
+    return warnings;
+}
+
 std::vector<std::string> response_warnings(const RunStats& stats) {
     std::vector<std::string> warnings;
     if (stats.truncated_steps > 0)

@@ -8,6 +8,8 @@
 
 namespace corpuscle {
 
+/// Warnings about circuits whose chips are all equal although they were requested.
+std::vector<std::string> equal_chips_warnings(std::span<const AfferentPlan> afferents);
 /// Warnings about afferents that membrane noise does not affect. `noise` in A.
 std::vector<std::string> noise_warnings(std::span<const AfferentPlan> afferents, double noise);
 

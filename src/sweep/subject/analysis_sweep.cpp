@@ -214,7 +214,7 @@ public:
                 context.apply_variation(*sample);
             context.max_iterations = limit, context.hit_iteration_limit = false;
             const auto result = circuit::run_directives(context, run_options);
-            if (!result && result.error().code == ErrorCode::interrupted) return {};
+            if (stop()) return {};  // the result may be incomplete
             if (!result && result.error().code != ErrorCode::not_converged) return result.error();
             on_outcome(result ? outcome(*item, *result)
                               : failed_outcome(*item, result.error().text(),

@@ -65,6 +65,11 @@ class PlannedSweep::PlanReader {
                                                   : plan_.chips.has_noise;
             if (name.text == "noise" && !TRY(circuit::read_transient_plan(*sweep_.circuit())).noise.is_on())
                 return name.error_here("noise: the transients have none; add its highest frequency, such as set.noisefmax = \"1kHz\"");
+            if (name.text != "noise" && !circuit::varies_with_chip(*sweep_.circuit()))
+                return name.error_here(
+                    fmt::format("{}: nothing in the netlist varies, so all chips would be equal: it has no UICM transistor (level=80), no "
+                                "tolerance and no random value; remove this axis",
+                                name.text));
             if (one) return name.error_here(fmt::format("'{}' varies twice", name.text));
             one = true;
         }
