@@ -12,7 +12,7 @@ namespace {
 
 using test::run_program, test::TemporaryFolder;
 
-std::vector<std::uint8_t> bytes_of(const std::string& text) { return {text.begin(), text.end()}; }
+std::vector<std::uint8_t> file_of(const std::string& text) { return {text.begin(), text.end()}; }
 
 /// A CSV recording in N with this force at each sample.
 template <class Force>
@@ -30,7 +30,7 @@ struct Replay {
 
     static Replay of(const std::string& name, const std::string& text, const std::string& rows) {
         PageEngine engine;
-        auto read = ask(engine, fmt::format(R"({{"request": "read", "name": "{}", "keep": true}})", name), "file", bytes_of(text));
+        auto read = ask(engine, fmt::format(R"({{"request": "read", "name": "{}", "keep": true}})", name), "file", file_of(text));
         EXPECT_EQ(read.error(), "");
         return {std::move(read), ask_well(engine, fmt::format(R"({{"request": "respond", "channel": 0, "rows": [{}]}})", rows))};
     }
@@ -61,7 +61,7 @@ TEST(PageRecordings, TheNoiseIsThatOfTheChosenChannel) {
     std::string text = "time_s,quiet_N,noisy_N\n";
     for (std::size_t k = 0; k < 3000; ++k) text += fmt::format("{:.3f},0,{:.6f}\n", static_cast<double>(k) / 1000, noise_at(k));
     PageEngine engine;
-    ask(engine, R"({"request": "read", "name": "two.csv", "keep": true})", "file", bytes_of(text));
+    ask(engine, R"({"request": "read", "name": "two.csv", "keep": true})", "file", file_of(text));
     const auto warnings = [&](int channel) {
         return ask_well(
             engine, fmt::format(R"({{"request": "respond", "channel": {}, "rows": [{{"afferent": "fa1-nerve"}}]}})", channel))["warnings"];
@@ -127,10 +127,10 @@ TEST(PageRecordings, AReplayHasTheTimesOfTheRecording) {
 TEST(PageRecordings, AKeptRecordingGivesTheSpikesOfItsForce) {
     PageEngine engine;
     const auto text = recording(1000, 1000, 0, [](std::size_t k) { return k > 200 ? 2.0 : 0.0; });
-    const auto sent = ask(engine, R"({"request": "read", "name": "step.csv"})", "file", bytes_of(text));
+    const auto sent = ask(engine, R"({"request": "read", "name": "step.csv"})", "file", file_of(text));
     const auto of_array =
         ask(engine, R"({"request": "respond", "rate": 1000, "rows": [{"afferent": "sa1"}]})", "force", sent.numbers("force.0"));
-    const auto kept = ask(engine, R"({"request": "read", "name": "step.csv", "keep": true})", "file", bytes_of(text));
+    const auto kept = ask(engine, R"({"request": "read", "name": "step.csv", "keep": true})", "file", file_of(text));
     EXPECT_EQ(kept["samples"], 1000);
     EXPECT_FALSE(kept.has("force.0")) << "the force stays in the engine";
     const auto of_channel = ask_well(engine, R"({"request": "respond", "channel": 0, "rows": [{"afferent": "sa1"}]})");
@@ -140,14 +140,14 @@ TEST(PageRecordings, AKeptRecordingGivesTheSpikesOfItsForce) {
               "respond: \"channel\" is 1; expected an integer from 0 to 0");
     EXPECT_EQ(ask(engine, R"({"request": "respond", "channel": 0, "rate": 10, "rows": [{"afferent": "sa1"}]})").error(),
               "respond: give either \"channel\", of the recording, or \"rate\"");
-    EXPECT_NE(ask(engine, R"({"request": "read", "name": "x.csv", "keep": true})", "file", bytes_of("x\ny\n")).error(), "");
+    EXPECT_NE(ask(engine, R"({"request": "read", "name": "x.csv", "keep": true})", "file", file_of("x\ny\n")).error(), "");
     EXPECT_EQ(ask(engine, R"({"request": "respond", "channel": 0, "rows": [{"afferent": "sa1"}]})").error(),
               "respond: there is no recording for \"channel\"; send the request \"read\" with \"keep\": true first");
 }
 
 TEST(PageRecordings, ANetlistIsNoRecording) {
     PageEngine engine;
-    const auto netlist = bytes_of("Axon-Hillock after Mead\nVdd vdd 0 3.3\n.end\n");
+    const auto netlist = file_of("Axon-Hillock after Mead\nVdd vdd 0 3.3\n.end\n");
     EXPECT_EQ(
         ask(engine, R"({"request": "read", "name": "own.cir"})", "file", netlist).error(),
         "own.cir: this is a netlist, not a recording; the page has built-in circuits and equations only; type: corpuscle respond press "
@@ -163,7 +163,7 @@ TEST(PageRecordings, ARecordingWithTooManyValuesSaysTheLimitAndTheCommand) {
         std::string("\x93NUMPY\x01\x00", 8) + std::string("\x76\x00", 2) + header + std::string(117 - header.size(), ' ') + "\n";
     npy.resize(npy.size() + 51'000'000);
     const auto answer =
-        ask(engine, R"({"request": "read", "name": "big one.npy", "options": {"rate": "1kHz", "unit": "N"}})", "file", bytes_of(npy));
+        ask(engine, R"({"request": "read", "name": "big one.npy", "options": {"rate": "1kHz", "unit": "N"}})", "file", file_of(npy));
     EXPECT_EQ(
         answer.error(),
         "the recording has more than 50 million values, the samples of all its channels together, which is the limit of the page. Choose "
