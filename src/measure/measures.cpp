@@ -78,4 +78,12 @@ std::vector<double> instantaneous_rates(std::span<const double> train) {
     return rates;
 }
 
+bool remove_unresolved_rates(std::vector<double>& values, double T) {
+    constexpr double tolerance = 1e-3;  // for spikes on the samples themselves, which are one sample apart except for rounding
+    bool any = false;
+    for (const auto m : {measure_index<MeanRate>(), measure_index<PeakRate>(), measure_index<FirstRate>(), measure_index<LastRate>()})
+        if (values[m] * T > 1 + tolerance) values[m] = no_value, any = true;
+    return any;
+}
+
 }  // namespace corpuscle

@@ -43,6 +43,10 @@ public:
     std::vector<double> values(std::size_t train, std::size_t window) const;
 };
 
+/// Removes the rates among the values of all `measures` that come from two spikes within one sample (T, s). They would be multiples of the
+/// sample rate, and say only that the force is too large for an afferent without a refractory time. Returns true if there are any.
+bool remove_unresolved_rates(std::vector<double>& values, double T);
+
 /// One measure of a complete train (spike times in s) in one window: measure<PeakRate>(train, {0.25, 0.375}).
 template <class M>
 double measure(std::span<const double> train, const TimeWindow& window) {

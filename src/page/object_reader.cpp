@@ -45,6 +45,12 @@ Result<std::uint64_t> ObjectReader::integer(const char* key, std::uint64_t low, 
     return static_cast<std::uint64_t>(x);
 }
 
+Result<bool> ObjectReader::flag(const char* key) {
+    const auto* value = find(key);
+    if (value && !value->is_boolean()) return wrong_value(name_, key, *value, "true or false");
+    return value && value->get<bool>();
+}
+
 Result<std::string> ObjectReader::text(const char* key, std::optional<std::string> default_value) {
     const auto* value = find(key);
     if (!value) return default_value ? Result<std::string>(*default_value) : Result<std::string>(missing_key(name_, key));

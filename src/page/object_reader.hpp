@@ -28,6 +28,7 @@ public:
     Result<double> number(const char* key, double low, double high, std::optional<double> default_value = {});
     /// An integer in [low, high]; high is at most 2^53.
     Result<std::uint64_t> integer(const char* key, std::uint64_t low, std::uint64_t high, std::optional<std::uint64_t> default_value = {});
+    Result<bool> flag(const char* key);  ///< false if the key is not there
     Result<std::string> text(const char* key, std::optional<std::string> default_value = {});
     Result<std::vector<std::string>> texts(const char* key);    ///< a list of texts; empty if the key is not there
     Result<std::vector<const Json*>> objects(const char* key);  ///< a list of objects; empty if the key is not there

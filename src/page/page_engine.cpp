@@ -16,6 +16,9 @@ namespace corpuscle::page {
 struct PageEngine::Impl {
     std::optional<Session> session;
     std::optional<ResponseJob> job;
+    std::optional<KeptRecording> recording;  // of the last `read` that asked to keep it
+
+    const KeptRecording* kept() const { return recording ? &*recording : nullptr; }
     std::atomic<bool> is_stopped = false;  // by another thread
 };
 
@@ -83,13 +86,13 @@ Result<void> answer_set(Engine& engine, const Request& request) {
 Result<void> answer_respond(Engine& engine, const Request& request) {
     const double slice = TRY(request.head.number("slice", 0, 10, 0));
     auto rows = engine.session ? engine.session->row_requests() : std::vector<RowRequest>();
-    engine.job = TRY(ResponseJob::respond(request.head, std::move(rows)));
+    engine.job = TRY(ResponseJob::respond(request.head, std::move(rows), engine.kept()));
     return run_job(engine, request, slice);
 }
 
 Result<void> answer_monte_carlo(Engine& engine, const Request& request) {
     const double slice = TRY(request.head.number("slice", 0, 10, 0));
-    engine.job = TRY(ResponseJob::monte_carlo(request.head));
+    engine.job = TRY(ResponseJob::monte_carlo(request.head, engine.kept()));
     return run_job(engine, request, slice);
 }
 
@@ -110,7 +113,7 @@ Result<void> answer_operating(Engine& engine, const Request& request) {
     return TRY(session_of(engine, request))->operating(request.head, request.answer);
 }
 
-Result<void> answer_read(Engine&, const Request& request) { return read_recording(request.head, request.answer); }
+Result<void> answer_read(Engine& engine, const Request& request) { return read_recording(request.head, engine.recording, request.answer); }
 
 Result<void> answer_save(Engine& engine, const Request& request) {
     return TRY(session_of(engine, request))->save(request.head, request.answer);

@@ -1,20 +1,23 @@
 #pragma once
-// The complete force of a request: a stimulus by name, or an array.
+// The complete force of a request: a stimulus by name, a channel of the recording that the engine keeps, or an array.
 
-#include "core/force_source.hpp"
+#include "page/kept_recording.hpp"
 #include "page/object_reader.hpp"
 
 namespace corpuscle::page {
 
 struct PageForce {
     Clock clock;
-    std::vector<double> force;  ///< N
-    std::vector<Phase> phases;  ///< of a stimulus
-    bool is_stimulus = false;
-    std::uint64_t seed = 0;  ///< of all random numbers of the request
+    std::shared_ptr<const std::vector<double>> values;    ///< N
+    std::vector<Phase> phases;                            ///< of a stimulus
+    bool is_known = false;                                ///< the request has the values as an array
+    std::uint64_t seed = 0;                               ///< of all random numbers of the request
+    std::string source = "the force", channel = "force";  ///< names for messages
+    RecordingQuality quality;                             ///< of the channel of a recording
 };
 
-/// Reads the keys "rate", "seed", "stimulus" and "stimulus_set", or the array "force" instead of the last two.
-Result<PageForce> read_force(ObjectReader&);
+/// Reads the key "seed", and "rate", "stimulus" and "stimulus_set", or "rate" and the array "force", or "channel". `recording`: the one
+/// that the engine keeps; null if there is none.
+Result<PageForce> read_force(ObjectReader&, const KeptRecording* recording);
 
 }  // namespace corpuscle::page

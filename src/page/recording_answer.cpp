@@ -2,10 +2,13 @@
 
 #include <fmt/format.h>
 #include <algorithm>
+#include <filesystem>
 #include <fstream>
+#include <functional>
 
+#include "core/text/ascii_text.hpp"
 #include "io/recording/recording_options.hpp"
-#include "page/documents.hpp"
+#include "page/row.hpp"
 #include "page/temporary_directory.hpp"
 
 namespace corpuscle::page {
@@ -50,45 +53,74 @@ std::string without_path(std::string text, const std::string& path, const std::s
     return text;
 }
 
-Result<void> add_force(ForceSource& source, MessageWriter& answer) {
+/// The force of each channel, N.
+Result<std::vector<std::vector<double>>> read_force_of(ForceSource& source, const std::string& name) {
     std::vector<std::vector<double>> force(source.channels().size());
     for (Frames block(force.size(), 4096);;) {
         TRY(source.read(block));
-        if (block.count == 0) break;
+        if (block.count == 0) return force;
         if ((force[0].size() + block.count) * force.size() > max_values)
-            return bad_input(fmt::format("the recording has more than {} values; use `corpuscle respond`", max_values));
+            return bad_input(
+                fmt::format("the recording has more than {} million values, the samples of all its channels together, which is the "
+                            "limit of the page. Choose channels with --channel, or type: corpuscle respond {}",
+                            max_values / 1'000'000, shell_word(name)));
         for (std::size_t c = 0; c < force.size(); ++c)
             force[c].insert(force[c].end(), block.force[c].begin(), block.force[c].begin() + static_cast<std::ptrdiff_t>(block.count));
     }
-    answer.head["samples"] = force[0].size();
-    for (std::size_t c = 0; c < force.size(); ++c) answer.add(fmt::format("force.{}", c), std::span<const double>(force[c]));
-    return {};
+}
+
+/// Returns an error if the file is a netlist by its name.
+Result<void> refuse_netlist(const std::string& name) {
+    constexpr std::string_view extensions[] = {".cir", ".ckt", ".net", ".sp", ".spice"};
+    const auto extension = lower(std::filesystem::path(name).extension().string());
+    if (std::ranges::find(extensions, extension) == std::end(extensions)) return {};
+    return bad_input(fmt::format("{}: this is a netlist, not a recording; {}", name, file_afferent_advice(name)));
+}
+
+/// Adds clock, channels, notes and warnings of a recording that has been read. `clean`: removes the path of the temporary file.
+void describe(const ForceSource& source, const std::function<std::string(const std::string&)>& clean, MessageWriter& answer) {
+    answer.head["rate"] = source.clock().rate(), answer.head["t0"] = source.clock().t0;
+    for (const auto& channel : source.channels()) answer.head["channels"].push_back(channel.name);
+    answer.head["description"] = clean(source.description());
+    answer.head["notes"] = answer.head["warnings"] = Json::array();
+    for (const auto& note : source.notes()) answer.head["notes"].push_back(clean(note));
+    const auto quality = source.quality();
+    for (const auto& text : quality.descriptions) answer.head["notes"].push_back(clean(text));
+    for (const auto& text : quality.warnings) answer.head["warnings"].push_back(clean(text));
+}
+
+KeptRecording kept_recording(const ForceSource& source, std::vector<std::vector<double>> force) {
+    KeptRecording out{source.name(), source.channels(), source.clock(), {}, source.quality()};
+    for (auto& values : force) out.force.push_back(std::make_shared<const std::vector<double>>(std::move(values)));
+    return out;
 }
 
 }  // namespace
 
-Result<void> read_recording(ObjectReader& request, MessageWriter& answer) {
+Result<void> read_recording(ObjectReader& request, std::optional<KeptRecording>& kept, MessageWriter& answer) {
     const auto name = std::filesystem::path(TRY(request.text("name"))).filename().string();
     const auto options = TRY(read_options(request));
+    const bool keeps = TRY(request.flag("keep"));
     const auto* bytes = request.array("file");
     TRY(request.check_all_read());
     if (!bytes || bytes->type != "u8") return bad_input("read: the array \"file\" of type u8 is missing");
     if (name.empty() || name == "." || name == "..") return bad_input("read: \"name\" is not the name of a file, such as touch.csv");
+    if (keeps) kept.reset();
+    TRY(refuse_netlist(name));
     const auto directory = TRY(TemporaryDirectory::make());
     const auto path = directory.file(name);
     TRY(write_file(path, bytes->data));
     const auto clean = [&](const std::string& text) { return without_path(text, path, name); };
     auto source = open_recording(path, options);
     if (!source) return bad_input(clean(source.error().text()));
-    if (const auto done = add_force(**source, answer); !done) return bad_input(clean(done.error().text()));
-    answer.head["rate"] = (*source)->clock().rate();
-    for (const auto& channel : (*source)->channels()) answer.head["channels"].push_back(channel.name);
-    answer.head["description"] = clean((*source)->description());
-    answer.head["notes"] = answer.head["warnings"] = Json::array();
-    for (const auto& note : (*source)->notes()) answer.head["notes"].push_back(clean(note));
-    const auto quality = (*source)->quality();
-    for (const auto& text : quality.descriptions) answer.head["notes"].push_back(clean(text));
-    for (const auto& text : quality.warnings) answer.head["warnings"].push_back(clean(text));
+    auto force = read_force_of(**source, name);
+    if (!force) return bad_input(clean(force.error().text()));
+    describe(**source, clean, answer);
+    answer.head["samples"] = force->front().size();
+    if (keeps)
+        kept = kept_recording(**source, std::move(*force));
+    else
+        for (std::size_t c = 0; c < force->size(); ++c) answer.add(fmt::format("force.{}", c), std::span<const double>((*force)[c]));
     return {};
 }
 

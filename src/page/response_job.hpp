@@ -3,11 +3,23 @@
 
 #include <atomic>
 
+#include "measure/measures.hpp"
 #include "page/page_force.hpp"
 #include "page/row.hpp"
 #include "run/simulate.hpp"
 
 namespace corpuscle::page {
+
+/// The response of one afferent, as far as it is simulated.
+struct JobResponse {
+    std::size_t spikes = 0;
+    std::string error;                             ///< "": none
+    std::vector<std::vector<float>> probes;        ///< of each probe, its values
+    Json probe_names, ranges;                      ///< as in the answer of `start`
+    std::vector<RangeViolation> range_violations;  ///< of each range
+    std::vector<std::string> range_warnings;
+    std::int64_t truncated_steps = 0, saturated = 0, overflowed = 0;  ///< as in ResponseBlock
+};
 
 class ResponseJob {
     std::string name_;  // of the request
@@ -20,22 +32,23 @@ class ResponseJob {
     std::size_t at_ = 0;    // samples of it so far
     std::unique_ptr<Afferent> afferent_;
     std::unique_ptr<AfferentSimulation> simulation_;
-    std::vector<double> padded_;                           // the force and the samples by which the afferent is late
-    std::vector<Spike> spikes_;                            // since the last answer
-    std::vector<std::size_t> spike_counts_;                // of each plan
-    std::vector<std::string> errors_;                      // of each plan; "": none
-    std::vector<std::vector<std::vector<float>>> probes_;  // [plan][probe][value]
-    std::vector<Json> probe_names_;
+    std::vector<Spike> spikes_;           // since the last answer
+    std::vector<JobResponse> responses_;  // of the plans so far
+    MeasureAccumulator measures_;         // of `respond`: of each plan, in each phase
 
+    void prepare_measures();
     void begin_plan();
+    void end_plan();
     void simulate_block(const std::atomic<bool>& is_stopped);
+    std::vector<std::string> warnings() const;
     void add_end(MessageWriter& answer) const;
 
 public:
-    /// Starts `respond`. `rows`: the rows of the session, if the request has none of its own.
-    static Result<ResponseJob> respond(ObjectReader&, std::vector<RowRequest> rows);
+    /// Starts `respond`. `rows`: the rows of the session, if the request has none of its own. The recording is the one that the engine
+    /// keeps.
+    static Result<ResponseJob> respond(ObjectReader&, std::vector<RowRequest> rows, const KeptRecording*);
     /// Starts `monte-carlo`.
-    static Result<ResponseJob> monte_carlo(ObjectReader&);
+    static Result<ResponseJob> monte_carlo(ObjectReader&, const KeptRecording*);
 
     bool is_done() const { return plan_ == plans_.size(); }
     /// Simulates for about `seconds`, or to the end if it is 0, and adds the results to the answer. It ends with an error when

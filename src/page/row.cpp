@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <algorithm>
 
+#include "core/text/ascii_text.hpp"
 #include "page/documents.hpp"
 #include "run/afferent_plan.hpp"
 
@@ -14,13 +15,23 @@ constexpr std::size_t max_rows = 64;
 /// The page must not read files of the machine on which the engine runs.
 Result<void> refuse_path(const std::string& afferent) {
     if (afferent.find_first_of("./\\") == std::string::npos) return {};
-    return bad_input(
-        fmt::format("'{}' is the path of a file; the page has the afferents of the catalogue, and combinations such as "
-                    "sa1b+izhikevich; `corpuscle respond` reads netlists",
-                    afferent));
+    return bad_input(fmt::format("'{}' is the path of a file; {}", afferent, file_afferent_advice(afferent)));
 }
 
 }  // namespace
+
+std::string shell_word(const std::string& name) {
+    constexpr std::string_view plain = "abcdefghijklmnopqrstuvwxyz0123456789_-+./:@,";
+    const auto is_plain = [&](char c) { return plain.find(lower(c)) != plain.npos; };
+    if (!name.empty() && std::ranges::all_of(name, is_plain)) return name;
+    std::string out = "'";
+    for (const char c : name) out += c == '\'' ? "'\\''" : std::string(1, c);
+    return out + "'";
+}
+
+std::string file_afferent_advice(const std::string& file) {
+    return fmt::format("the page has built-in circuits and equations only; type: corpuscle respond press --afferent {}", shell_word(file));
+}
 
 Result<RowRequest> read_row_request(ObjectReader& object) {
     RowRequest out;

@@ -8,15 +8,14 @@ namespace {
 
 constexpr std::size_t simulated_block = 4096;  // samples
 
-/// A block of force and `delay` samples after it. The last value of the force is repeated.
+}  // namespace
+
 std::vector<double> padded_block(std::span<const double> force, std::size_t first, std::size_t count, std::size_t delay) {
     const auto available = force.subspan(first, std::min(count + delay, force.size() - first));
     std::vector<double> out(available.begin(), available.end());
     out.resize(count + delay, force.back());
     return out;
 }
-
-}  // namespace
 
 Result<void> AfferentSimulation::respond(std::span<const double> force, ResponseBlock& response) {
     // The response to the first delay_ samples would lie before the force, so nothing of it is recorded.

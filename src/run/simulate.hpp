@@ -26,6 +26,10 @@ public:
     Result<void> respond(std::span<const double> force, ResponseBlock&);
 };
 
+/// The samples `first` to `first` + `count` - 1 of a force, which it has, and `delay` samples after them. At its end, the last value is
+/// repeated.
+std::vector<double> padded_block(std::span<const double> force, std::size_t first, std::size_t count, std::size_t delay);
+
 struct SimulateOptions {
     std::span<const std::size_t> probes = {};  ///< indexes into the afferent's probes: those to record
     std::size_t every = 1;                     ///< 1: all samples of a probe are recorded; 2: every second one, beginning with the first

@@ -137,7 +137,11 @@ TEST(PageRequests, AResponseHasItsWarningsAndGoesOnInAnySlice) {
         ask_well(engine, R"({"request": "respond", "rate": 100, "stimulus": "press", "rows": [{"afferent": "fa2"}], "slice": 1e-12})");
     for (int k = 0; k < 10'000 && answer["done"] == false; ++k) answer = ask_well(engine, R"({"request": "continue", "slice": 1e-12})");
     ASSERT_EQ(answer["done"], true);
-    EXPECT_EQ(answer["warnings"], nlohmann::ordered_json::array({"fa2 needs a sampling rate of at least 1000 Hz"}));
+    EXPECT_EQ(answer["warnings"],
+              Json::array({"fa2 on press: the sample rate is 100 Hz, but this afferent needs 1000 Hz or more: vibration above 50 Hz is "
+                           "missing, and it responds to the slower part of the force only",
+                           "fa2: on press several spikes come within one sample of 10 ms, so their rates are left out; record at 1 kHz or "
+                           "more, or read a recording with --resample 2kHz --interpolation smooth"}));
 }
 
 TEST(PageRequests, TheSpikesSinceTheStartAreSavedAsCsv) {
@@ -215,7 +219,9 @@ TEST(PageRequests, RefusedOnesNameTheFaultAndKeepTheSession) {
         {R"({"request": "advance", "samples": 10, "x": 1})", "advance: give both x and y, or neither"},
         {R"({"request": "advance", "samples": 10, "force": null})", "advance: \"force\" is null; expected a number"},
         {R"({"request": "advanse"})", "there is no request 'advanse'; did you mean 'advance'?"},
-        {R"({"request": "start", "rate": 10000, "rows": [{"afferent": "circuits/own.cir"}]})", "'circuits/own.cir' is the path of a file"},
+        {R"({"request": "start", "rate": 10000, "rows": [{"afferent": "circuits/own.cir"}]})",
+         "'circuits/own.cir' is the path of a file; the page has built-in circuits and equations only; type: corpuscle respond press "
+         "--afferent circuits/own.cir"},
         {R"({"request": "start", "rate": 10000, "skin": {"population": "own.toml"}})", "there is no population 'own.toml'"},
         {R"({"request": "start", "rate": 10000, "skin": {"population": "README"}})", "there is no population 'README'"},
         {R"({"request": "start", "rate": 10000, "rows": [{"afferent": "sa1", "probes": ["vf"]}]})", "sa1: \"probes\" are for circuits"},

@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 #include <regex>
 
+#include "run/firing_factor.hpp"
 #include "run/summary/silent_afferents.hpp"
 #include "support/program.hpp"
 #include "support/sanitized.hpp"

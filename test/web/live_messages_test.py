@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""Messages of the live page if a simulation fails, is stopped or is replaced:   live_messages_test.py CORPUSCLE OUTDIR PAGE
+"""Messages of the live page, and what it keeps, if a simulation fails, is stopped or is replaced:   live_messages_test.py CORPUSCLE OUTDIR PAGE
 
 Exits with 77 if there is no PAGE, which `make page` builds.
 """

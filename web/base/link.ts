@@ -1,5 +1,5 @@
 // The state of a page in its link: "#channel=3&from=0.5&to=1.25", or first the name of a part of the page: "#fig13&by=label". A
-// link with an unknown key, or a value that is too long, is refused.
+// link with an unknown or repeated key, or a value that is too long, is refused.
 
 const MAX_LINK = 4000;
 
@@ -11,7 +11,7 @@ export function linkValues(text = location.hash): Map<string, string> | null {
     if (parts.length && /^[\w.-]+$/.test(parts[0])) values.set("", parts.shift()!);
     for (const part of parts) {
         const [, name, value] = /^([a-z][\w-]*)=(.*)$/i.exec(part) || [];
-        if (!name) return null;
+        if (!name || values.has(name)) return null;
         try {
             values.set(name, decodeURIComponent(value));
         } catch {

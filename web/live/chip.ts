@@ -6,7 +6,7 @@ import {RasterPanel} from "../panels/raster-panel";
 import {table} from "../panels/table";
 import {View} from "../plot/view";
 import {LiveTrain, appendSpikes} from "./history";
-import type {Session} from "./session";
+import {Session, ValidRange, rangeText} from "./session";
 import {settingTexts} from "./settings";
 
 interface Block { name: string; power: number; nodes: {name: string; voltage: number}[]; devices: {name: string; current: number}[] }
@@ -110,18 +110,22 @@ export class Chip {
         this.view?.remove();
         this.view = null;
         fill(this.monteCarlo, progress);
-        let rows: {error?: string}[] = [];
+        let rows: {error?: string; outside: number[]}[] = [], ranges: ValidRange[] = [];
         try {
             const isDone = await this.session.runJob(request, {}, ({head, arrays}) => {
                 if (!this.view) this.showChips(head, trains);
                 appendSpikes(trains, arrays.unit, arrays.time);
                 const counts = trains.map(({count}) => count);
                 progress.textContent = `${head.chips_done} of ${CHIPS} chips` + (head.done ? `: ${Math.min(...counts)} to ${Math.max(...counts)} spikes` : "");
-                rows = head.rows || [];
+                [rows, ranges] = [head.rows || [], head.ranges || []];
                 this.view!.request();
             });
             const failed = rows.filter(({error}) => error);
             if (failed.length) progress.textContent += `; ${failed.length} of them stopped: ${failed[0].error}`;
+            ranges.forEach((range, k) => {
+                const left = rows.filter(({outside}) => outside[k] > 0).length;
+                if (left) progress.textContent += `. In ${left} of them ${rangeText(range)}`;
+            });
             if (!isDone) progress.textContent += ", stopped by another simulation";
         } catch (error) {
             progress.textContent = (error as Error).message;

@@ -9,8 +9,12 @@ export interface Engine {
     readonly place: string;
     /// The formats of recordings that it reads, for the reader.
     readonly formats: string;
-    /// Throws the sentence of an error if a request of so many bytes is too long for it.
-    checkLength(bytes: number): void;
+    /// The length of the longest request.
+    readonly mostMegabytes: number;
+    /// Throws the sentence of an error if a file of so many bytes is too long for it. `options`: of the command that reads it.
+    checkFile(bytes: number, name: string, options: string): void;
+    /// Sets a function that is called with a sentence when the engine ends, after which no request is answered.
+    whenEnded(act: (reason: string) => void): void;
     /// Sends a request. The promise is rejected with the sentence of the engine's error.
     request(head: object, arrays?: Record<string, NumberArray>): Promise<Answer>;
 }
@@ -22,6 +26,9 @@ export const notStarted = (reason: string) => `The engine did not start (${reaso
 
 const megabytes = (bytes: number) => Math.ceil(bytes / 2 ** 20);
 
+/// A file name as a word that a shell takes.
+const shellWord = (name: string) => (/^[\w.+@:,/-]+$/.test(name) ? name : `'${name.replace(/'/g, "'\\''")}'`);
+
 /// Matches answers to requests by their order.
 abstract class QueueEngine implements Engine {
     abstract readonly place: string;
@@ -29,6 +36,7 @@ abstract class QueueEngine implements Engine {
     protected abstract readonly mostBytes: number;  // of a request
     private waiting: Waiting[] = [];
     private failure: Error | null = null;  // after which no request is answered
+    private ended: (reason: string) => void = () => {};
 
     protected abstract send(bytes: Uint8Array): void;
 
@@ -42,8 +50,17 @@ abstract class QueueEngine implements Engine {
         });
     }
 
-    checkLength(bytes: number) {
-        if (bytes > this.mostBytes) throw new Error(`This has ${megabytes(bytes)} MB; the engine of this page accepts ${megabytes(this.mostBytes)} MB. The command corpuscle respond has no such limit.`);
+    get mostMegabytes() { return megabytes(this.mostBytes); }
+
+    checkFile(bytes: number, name: string, options: string) { this.checkLength(bytes, name, `; type: corpuscle respond ${[shellWord(name), options].join(" ").trim()}`); }
+
+    private checkLength(bytes: number, name = "This", command = "") {
+        if (bytes > this.mostBytes) throw new Error(`${name} has ${megabytes(bytes)} MB; the engine of this page accepts ${this.mostMegabytes} MB. The command line has no such limit${command}`);
+    }
+
+    whenEnded(act: (reason: string) => void) {
+        this.ended = act;
+        if (this.failure) act(this.failure.message);
     }
 
     protected receive(buffer: ArrayBuffer) {
@@ -56,6 +73,7 @@ abstract class QueueEngine implements Engine {
     protected fail(reason: string) {
         this.failure = new Error(reason);
         this.waiting.splice(0).forEach(({reject}) => reject(this.failure!));
+        this.ended(reason);
     }
 }
 

@@ -48,6 +48,10 @@ class LivePage {
         this.charts = new Charts(this.session, this.chartHost);
         this.rows = new Rows(this.session, this.charts, (change) => void this.restart(change), () => putSettingsInLink(settings));
         this.build(engine);
+        engine.whenEnded((reason) => {
+            this.session.isPaused = true;
+            this.say(reason);
+        });
     }
 
     private get settings() { return this.session.settings; }
@@ -78,7 +82,7 @@ class LivePage {
             button("Follow", "follow", "Show the present again", () => this.charts.followAgain()),
             button("Sound off", "sound", "Hear the spikes of the rows", (node) => void this.sound.toggle().then((on) => { node.textContent = on ? "Sound on" : "Sound off"; })),
             button("Copy link", "copy-link", "Copy a link to this page with its settings", (node) => copy(location.href, node)),
-            button("Save spikes", "save", "Save the spikes since the start as CSV", () => void this.save({format: "csv"})),
+            button("Save spikes", "save", "Save the spikes of this session since its start as CSV", () => void this.save({format: "csv"})),
             this.nwb,
             button("Save force", "save-force", "Save the force of the last minute as a recording, which corpuscle respond reads", () => download("force.csv", forceText(session))),
             this.status);
@@ -93,6 +97,7 @@ class LivePage {
         try {
             const {head, arrays} = await this.session.engine.request({request: "save", ...how}, sent);
             download(head.name, new Blob([arrays.file]));
+            if (this.session.isSilent) this.say(`Nothing has fired since the start of this session, so ${head.name} has no spikes.${document.getElementById("save-replay") ? " The replay below has a button of its own: Save spikes of this replay." : ""}`);
             if (head.dropped) this.say(`${head.name} lacks the first ${head.dropped} spikes, which the engine no longer has.`);
         } catch (error) {
             this.say((error as Error).message);

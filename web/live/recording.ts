@@ -1,55 +1,50 @@
 // A recording, or a named stimulus, under the rows of the page: read by the engine, simulated, and shown like a report.
 
-import {append, chooser, fill, h} from "../base/dom";
+import {append, chooser, download, fill, h} from "../base/dom";
 import {quantity} from "../base/text";
 import {RasterPanel} from "../panels/raster-panel";
 import {TracePanel} from "../panels/trace-panel";
 import {View} from "../plot/view";
 import type {Answer} from "./engine";
 import {LiveCurve, LiveTrain, appendSpikes} from "./history";
+import {optionTexts} from "./option-texts";
 import type {Session} from "./session";
 import {settingTexts} from "./settings";
+import {spikesText} from "./spikes-file";
 
-/// The options of a command line by their names: "--abs -c Fz --notch=50Hz --notch 100Hz" is {abs: ["true"], channel: ["Fz"], notch: ["50Hz", "100Hz"]}.
-/// A value with blanks is between quotation marks. Throws an error if a word is neither an option nor the value of one.
-function optionTexts(line: string): Record<string, string[]> {
-    const words = (line.match(/(?:"[^"]*"|[^\s"])+/g) || []).map((word) => word.replace(/"/g, "")), isOption = (word: string) => /^--?[a-z]/.test(word);
-    const options = new Map<string, string[]>();
-    for (let k = 0; k < words.length; ++k) {
-        const [, name, value] = words[k].match(/^--?([a-z][a-z-]*)(?:=(.*))?$/) || [];
-        if (!name) throw new Error(`options of the recording: '${words[k]}' is not an option; write for example --rate 1kHz`);
-        const full = name === "c" ? "channel" : name, hasNoValue = k + 1 === words.length || isOption(words[k + 1]);
-        options.set(full, [...(options.get(full) || []), value ?? (hasNoValue ? "true" : words[++k])]);
-    }
-    return Object.fromEntries(options);
-}
+/// A force to replay. `request`: its keys in the request `respond`. `name`: for the reader. `channel`: its name in files.
+interface Force { request: object; name: string; channel: string }
 
 export class Recording {
     readonly root = h("div", {id: "recording"});
-    private result = h("div");
+    private about = h("div");                      // the recording: chooser of the channel, notes
+    private replay = h("div", {id: "replay"});     // notes, button and figures of the newest replay
+    private fileName = h("span", {class: "readout", id: "recording-name"}, "or drop it here");
     private status = h("p", {class: "readout", role: "status", id: "recording-status"});
     private view: View | null = null;
     private options: HTMLInputElement = h("input", {type: "text", id: "recording-options", size: 40, spellcheck: false,
         placeholder: "--rate 1kHz --scale 0.01 --channel Fz", onchange: () => this.read(this.file)});
     private file: File | undefined;  // the last one
-    private newest = 0;              // number of the newest recording or stimulus
+    private newest = 0;              // number of the newest reading or replay; what belongs to an older one is not shown
 
     constructor(private session: Session) {
+        const {engine, catalogue} = session;
         const input: HTMLInputElement = h("input", {type: "file", id: "recording-file", "aria-label": "Recording", onchange: () => {
             this.read(input.files![0]);
             input.value = "";  // so that the same file can be chosen again
         }});
-        const names = session.catalogue.stimuli.map(({name}) => name);
+        const names = catalogue.stimuli.map(({name}) => name);
         const runStimulus = (name: string) => {
-            fill(this.result);
-            void this.run({stimulus: name}, {}, name);
+            const {rate} = session.settings;
+            this.begin("");
+            void this.run({request: {rate, stimulus: name}, name, channel: name});
         };
         let chosen = Math.max(0, names.indexOf("press"));
         const stimulus = chooser("or a stimulus", names, chosen, (k) => runStimulus(names[chosen = k]));
         const play = h("button", {type: "button", id: "play-stimulus", onclick: () => runStimulus(names[chosen])}, "Play");
-        append(this.root, h("p", {}, h("label", {}, "Recording ", input), " ", stimulus, " ", play),
+        append(this.root, h("p", {}, "Recording ", h("label", {class: "file-button"}, "Choose a file", input), " ", this.fileName, " ", stimulus, " ", play),
             h("p", {class: "bar"}, h("label", {title: "how the file is read: options of `corpuscle respond` for recordings"}, "Options of the recording ", this.options)),
-            h("p", {class: "note"}, `A table of forces: ${session.engine.formats}. It is read and simulated by ${session.engine.place}; it is not sent anywhere else.`), this.status, this.result);
+            h("p", {class: "note"}, `A table of forces of at most ${engine.mostMegabytes} MB: ${engine.formats}. It is read and simulated by ${engine.place}; it is not sent anywhere else.`), this.status, this.about, this.replay);
         this.root.addEventListener("dragover", (event) => event.preventDefault());
         this.root.addEventListener("drop", (event) => {
             event.preventDefault();
@@ -61,53 +56,76 @@ export class Recording {
         if (file) void this.load(this.file = file);
     }
 
+    /// Removes what is shown, and stops the replay of it. Returns the number of what begins.
+    private begin(text: string): number {
+        this.clearReplay();
+        fill(this.about);
+        this.status.textContent = text;
+        return ++this.newest;
+    }
+
+    private clearReplay() {
+        this.view?.remove();
+        this.view = null;
+        fill(this.replay);
+    }
+
     private async load(file: File) {
+        const {engine} = this.session, number = this.begin(`reading ${file.name} …`);
+        this.fileName.textContent = file.name;
         try {
-            this.session.engine.checkLength(file.size);
-            const answer = await this.session.engine.request({request: "read", name: file.name, options: optionTexts(this.options.value)},
-                {file: new Uint8Array(await file.arrayBuffer())});
-            this.showChannels(answer, file.name);
+            const options = optionTexts(this.options.value);
+            engine.checkFile(file.size, file.name, this.options.value);
+            const bytes = new Uint8Array(await file.arrayBuffer());
+            if (number !== this.newest) return;
+            const {head} = await engine.request({request: "read", name: file.name, options, keep: true}, {file: bytes});
+            if (number === this.newest) this.showChannels(head, file.name);
         } catch (error) {
-            this.status.textContent = (error as Error).message;
+            if (number === this.newest) this.status.textContent = (error as Error).message;
         }
     }
 
     /// Simulates the first channel, and lets the user choose another.
-    private showChannels({head, arrays}: Answer, name: string) {
+    private showChannels(head: any, file: string) {
         const channels: string[] = head.channels, notes = [...(head.warnings || []), ...(head.notes || [])];
-        const run = (k: number) => void this.run({rate: head.rate}, {force: arrays[`force.${k}`]}, channels.length > 1 ? `${name}, ${channels[k]}` : name);
-        fill(this.result, channels.length > 1 ? h("p", {}, chooser("Channel", channels, 0, run)) : null, ...notes.map((text) => h("p", {class: "note"}, text)), h("div", {class: "figures"}));
+        const run = (k: number) => void this.run({request: {channel: k}, name: channels.length > 1 ? `${file}, ${channels[k]}` : file, channel: channels[k]});
+        fill(this.about, channels.length > 1 ? h("p", {}, chooser("Channel", channels, 0, run)) : null, ...notes.map((text) => h("p", {class: "note"}, text)));
         run(0);
     }
 
-    private async run(force: object, arrays: {force?: any}, name: string) {
+    private async run(force: Force) {
         const {settings, rows: shown} = this.session, trains = settings.rows.map(() => new LiveTrain()), colours = shown.map(({colour}) => colour);
-        const rows = settings.rows.map(({afferent, set}) => ({afferent, set: settingTexts(set)})), number = ++this.newest;
-        this.status.textContent = `${name}: 0 % simulated`;
+        const rows = settings.rows.map(({afferent, set}) => ({afferent, set: settingTexts(set)})), number = ++this.newest, isNewest = () => number === this.newest;
+        this.status.textContent = `${force.name}: 0 % simulated`;
         try {
-            const isDone = await this.session.runJob({request: "respond", rate: settings.rate, seed: settings.seed, rows, ...force}, arrays, (answer) => {
+            const isDone = await this.session.runJob({request: "respond", seed: settings.seed, rows, ...force.request}, {}, (answer) => {
+                if (!isNewest()) return false;
                 appendSpikes(trains, answer.arrays.unit, answer.arrays.time);
-                this.status.textContent = `${name}: ${Math.round(100 * answer.head.progress)} % simulated`;
-                if (answer.head.done) this.show(answer, arrays.force || answer.arrays.force, trains, colours, name);
+                this.status.textContent = `${force.name}: ${Math.round(100 * answer.head.progress)} % simulated`;
+                if (answer.head.done) this.show(answer, force, trains, colours);
+                return true;
             });
-            if (!isDone && number === this.newest) this.status.textContent += ", stopped by another simulation";
+            if (!isDone && isNewest()) this.status.textContent += ", stopped by another simulation";
         } catch (error) {
+            if (!isNewest()) return;
+            this.clearReplay();
             this.status.textContent = (error as Error).message;
         }
     }
 
-    private show({head}: Answer, values: ArrayLike<number>, trains: LiveTrain[], colours: string[], name: string) {
-        const host = this.result.querySelector<HTMLElement>(".figures") || this.result.appendChild(h("div", {class: "figures"})), {rate, samples, phases = []} = head;
-        const curve = new LiveCurve("force", "N", 1 / rate, null, 0, samples), clock = {t0: 0, T: 1 / rate, samples};
-        curve.append(values, 0);
-        this.view?.remove();
-        const view = this.view = new View();
-        view.setLimits({begin: 0, end: samples / rate, smallest: 4 / rate});
+    private show({head, arrays}: Answer, {name, channel}: Force, trains: LiveTrain[], colours: string[]) {
+        const {rate, t0, samples, phases = [], warnings} = head, names: string[] = head.rows.map((row: {name: string}) => row.name);
+        const host = h("div", {class: "figures"}), curve = new LiveCurve("force", "N", 1 / rate, null, t0, samples), clock = {t0, T: 1 / rate, samples};
+        curve.append(arrays.force, t0);
+        this.clearReplay();
+        append(this.replay, warnings.length ? h("ul", {class: "notes all"}, ...warnings.map((text: string) => h("li", {}, text))) : null,
+            h("p", {}, h("button", {type: "button", id: "save-replay", title: "Save the spikes of this replay as CSV, as corpuscle respond --out writes them", onclick: () => download("spikes.csv", spikesText(names, channel, trains))}, "Save spikes of this replay")), host);
+        const view = (window as any).corpuscle.replay = this.view = new View();
+        view.setLimits({begin: t0, end: t0 + samples / rate, smallest: 4 / rate});
         view.add(new TracePanel({host, name: "recorded force", title: ["force"], about: `force of ${name}`, height: 100, clock, phases, isNamed: true, traces: [curve], series: [{name: "force", label: [], colour: "var(--ink)"}]}),
             new RasterPanel({host, name: "recorded spikes", title: ["spikes"], about: `spikes under ${name}`, height: Math.max(50, 24 * trains.length), clock, phases, isBottom: true, series: [],
-                             rows: head.rows.map((row: {name: string}, k: number) => ({series: row.name, label: row.name, colour: colours[k], spikes: trains[k]}))}));
-        this.status.textContent = `${name}: ${quantity(samples / rate, "s", true)}; ` + head.rows.map((row: {name: string}, k: number) => `${row.name} ${trains[k].count}`).join(", ") + " spikes";
-        const problems = [...head.warnings, ...head.rows.filter((row: {error?: string}) => row.error).map(({name: row, error}: any) => `${row}: ${error}`)];
-        if (problems.length) this.status.textContent += `. ${problems.join(". ")}`;
+                             rows: names.map((row, k) => ({series: row, label: row, colour: colours[k], spikes: trains[k]}))}));
+        const failed = head.rows.filter((row: {error?: string}) => row.error).map(({name: row, error}: any) => `. ${row}: ${error}`).join("");
+        this.status.textContent = `${name}: ${quantity(samples / rate, "s", true)}${t0 ? ` from ${Number(t0.toPrecision(9))} s` : ""}; ${names.map((row, k) => `${row} ${trains[k].count}`).join(", ")} spikes${failed}`;
     }
 }

@@ -8,9 +8,14 @@ import {HISTORY, LiveCurve, LiveTrain, appendSpikes} from "./history";
 import type {Press} from "./press";
 import {Settings, settingTexts} from "./settings";
 
+export interface ValidRange { quantity: string; unit: string; low: number; high: number; meaning: string }
+
+/// The sentence about a quantity that has left its range.
+export const rangeText = ({quantity, unit, low, high, meaning}: ValidRange) => `${quantity} is outside ${low} to ${high} ${unit}: ${meaning}`;
+
 interface RowInfo {
     name: string; class: string; composition: string; is_circuit: boolean; probes: {name: string; unit: string}[]; delay: number; parameters: Parameter[];
-    ranges: {quantity: string; unit: string; low: number; high: number; meaning: string}[];
+    ranges: ValidRange[];
 }
 
 export interface Row { info: RowInfo; colour: string; train: LiveTrain; curves: LiveCurve[]; power: number; error: string; outside: string }  // outside: the range that the last block has left
@@ -123,15 +128,19 @@ export class Session {
         this.contactValues = new Map((head ? head.contact_parameters : []).map(({name, value}) => [name, value]));
     }
 
-    /// Simulates a complete force: sends a request, and `continue` until it is done; `each` gets the answers. A newer job replaces this one, which
-    /// then returns false.
-    async runJob(head: object, arrays: Record<string, NumberArray>, each: (answer: Answer) => void): Promise<boolean> {
+    /// Simulates a complete force: sends a request, and `continue` until it is done; `each` gets the answers. It returns false if a newer job has
+    /// replaced this one, or if `each` has returned false, which cancels it.
+    async runJob(head: object, arrays: Record<string, NumberArray>, each: (answer: Answer) => boolean | void): Promise<boolean> {
         const job = ++this.job;
         let answer = await this.engine.request({...head, slice: SLICE}, arrays);
         for (;;) {
             if (job !== this.job) return false;
-            each(answer);
+            const isWanted = each(answer) !== false;
             if (answer.head.done) return true;
+            if (!isWanted) {
+                this.cancelJob();
+                return false;
+            }
             answer = await this.engine.request({request: "continue", slice: SLICE});
         }
     }
@@ -162,6 +171,9 @@ export class Session {
     /// True if the contact itself has a tangential force, so that the press must not add one.
     get hasOwnShear() { return ["tilt", "friction"].some((name) => (this.contactValues.get(name) || 0) > 0); }
 
+    /// True if nothing has fired since the start.
+    get isSilent() { return [...this.rows.map(({train}) => train), ...(this.skin ? this.skin.trains : [])].every(({count}) => count === 0); }
+
     get isBusy() { return this.pending > 0; }
 
     private async advance(samples: number) {
@@ -190,7 +202,7 @@ export class Session {
             const row = this.rows[r];
             [row.power, row.error] = [one.power || 0, one.error || row.error];
             const left = row.info.ranges.find((_, k) => one.outside[k] > 0);
-            row.outside = left ? `${left.quantity} is outside ${left.low} to ${left.high} ${left.unit}: ${left.meaning}` : "";
+            row.outside = left ? rangeText(left) : "";
             row.curves.forEach((curve, p) => { const values = arrays[`probe.${r}.${p}`]; if (values) curve.append(values, one.first); });
         });
         if (head.contact) this.contactRadius = head.contact.radius;

@@ -65,13 +65,14 @@ function parsedSettings(texts: string[]): Map<string, string> | null {
     return out;
 }
 
-/// The rows of a link: "sa1~f_B=25Hz,sa1-circuit".
-function parsedRows(text: string, catalogue: Catalogue): RowSettings[] | null {
+/// The rows of a link: "sa1~f_B=25Hz,sa1-circuit". The engine knows more names than the catalogue has, such as SA1 and sa1b+izhikevich, and
+/// refuses the others.
+function parsedRows(text: string): RowSettings[] | null {
     const rows: RowSettings[] = [];
     if (text === "none") return rows;
     for (const part of text.split(",").filter(Boolean)) {
         const [afferent, ...rest] = part.split("~"), set = parsedSettings(rest);
-        if (!set || !catalogue.afferents.some(({name}) => name === afferent)) return null;
+        if (!set || !/^[\w .+\/\\:-]{1,80}$/.test(afferent)) return null;
         rows.push({afferent, set});
     }
     return rows.length <= MAX_ROWS ? rows : null;
@@ -86,7 +87,7 @@ export function settingsOfLink(catalogue: Catalogue): Settings | null {
         const value = linkNumber(values.get(name));
         return value !== null && value >= low && value <= high ? value : NaN;
     };
-    const rows = values.has("rows") ? parsedRows(values.get("rows")!, catalogue) : out.rows;
+    const rows = values.has("rows") ? parsedRows(values.get("rows")!) : out.rows;
     const contact = parsedSettings((values.get("contact") || "").split("~").filter(Boolean));
     const skin = values.get("skin") ?? out.population, indenter = values.get("indenter") ?? out.indenter;
     const isKnown = (skin === "" || skin === "none" || catalogue.populations.some(({name}) => name === skin)) && catalogue.indenters.some(({name}) => name === indenter);

@@ -2,7 +2,7 @@
 
 import {classColour, resolved} from "../base/colours";
 import {h} from "../base/dom";
-import {quantity} from "../base/text";
+import {fixedText, quantity} from "../base/text";
 import {Places, SkinGeometry, spacing} from "../skin/geometry";
 import {SkinScene} from "../skin/scene";
 import {SkinMap} from "../skin/skin-map";
@@ -10,6 +10,9 @@ import type {Press} from "./press";
 import type {Session, Skin} from "./session";
 
 const SPIKE_SHOWN = 0.15;  // s for which a spike is shown
+
+/// A place on the skin: 0.011034 m is "11.03 mm".
+const millimetres = (metres: number) => fixedText(Number((1e3 * metres).toFixed(2)) || 0, 0.01, "mm");
 
 export class SkinView {
     readonly root: HTMLElement;
@@ -97,7 +100,7 @@ export class SkinView {
         if (!skin || !this.scene) return;
         this.active = recentSpikes(skin, time);
         this.scene.draw();
-        this.readout.textContent = `${quantity(this.press.force, "N", true)} at ${quantity(this.press.x, "m", true)}, ${quantity(this.press.y, "m", true)}`;
+        this.readout.textContent = `${quantity(this.press.force, "N", true)} at ${millimetres(this.press.x)}, ${millimetres(this.press.y)}`;
     }
 
     private drawContact({canvas, scene}: SkinMap) {

@@ -54,7 +54,7 @@ class StreamPage implements LiveSource {
         this.force = new LiveCurve("total force", "N", 1 / head.force_rate);
         this.state = "live";
         document.getElementById("title")!.textContent = head.population;
-        document.getElementById("description")!.textContent = `${head.description || ""} ${head.units} afferents, ${head.rate} frames per second`;
+        document.getElementById("description")!.textContent = [head.description, `${head.units} afferents`, `${head.rate} frames per second`].filter(Boolean).join(", ");
         this.mapHost.parentElement!.hidden = new Set(this.skin.siteX).size < 2 && new Set(this.skin.siteY).size < 2;
         this.scene = new SkinScene(geometryOf(this.skin, 0), (draw) => this.siteForce.forEach((newtons, site) => draw(site, newtons / this.most)));
         new SkinMap(this.scene, {host: this.mapHost, name: "skin", title: [], about: "the skin, the force on it, and its active afferents", classes: this.skin.classes.map((_, k) => k), hasRings: true,

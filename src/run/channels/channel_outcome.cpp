@@ -65,8 +65,7 @@ void ChannelOutcome::add_rate_warnings(double T) {
         double rate = max_nerve_rate;
         for (const auto& row : summary.rows)
             if (const double r = highest_rate(row); row.afferent == plan.name && r > rate) fastest = &row, rate = r;
-        if (fastest)
-            warnings.push_back(fmt::format("{}: on {} {}", plan.name, fastest->channel, excessive_rate_warning(rate, T, plan, plan.name)));
+        if (fastest) warnings.push_back(channel_rate_warning(rate, T, plan, fastest->channel));
     }
 }
 

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "run/channels/channel_population.hpp"
+#include "run/channels/channel_warnings.hpp"
 #include "run/channels/lookahead_buffer.hpp"
 #include "run/interruption.hpp"
 #include "run/run_inputs.hpp"
@@ -265,13 +266,9 @@ private:
             for (std::size_t r = 0; r < ranges.size(); ++r) {
                 const auto [scalar, count] = longest_violation(plan, r);
                 if (!scalar) continue;
-                const auto& violations = scalar->range_violations[r];
-                const auto message =
-                    range_violation_message(ranges[r], static_cast<double>(violations.samples) * T, static_cast<double>(samples_) * T,
-                                            static_cast<double>(violations.first_sample) * T);
-                warnings.push_back(
-                    fmt::format("{} on {}: {}{}", population_.plans()[plan].name, population_.channel_name(scalar->afferent_index), message,
-                                count > 1 ? fmt::format(" (and on {} other channels, for at most as long)", count - 1) : ""));
+                warnings.push_back(range_warning(population_.plans()[plan].name, population_.channel_name(scalar->afferent_index),
+                                                 ranges[r], scalar->range_violations[r], samples_, T) +
+                                   (count > 1 ? fmt::format(" (and on {} other channels, for at most as long)", count - 1) : ""));
             }
         }
         return warnings;

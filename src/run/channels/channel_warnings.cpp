@@ -3,7 +3,9 @@
 
 #include <fmt/format.h>
 #include <cmath>
+#include <limits>
 
+#include "measure/measures.hpp"
 #include "model/neuron/threshold_crossing.hpp"
 
 namespace corpuscle {
@@ -21,6 +23,13 @@ std::vector<std::string> equal_chips_warnings(std::span<const AfferentPlan> affe
     for (const auto& a : afferents)
         if (const auto reason = a.traits().reason_no_chips; !reason.empty()) warnings.push_back(fmt::format("{}: {}", a.name, reason));
     return warnings;
+}
+
+std::string range_warning(const std::string& afferent, const std::string& channel, const ValidRange& range, const RangeViolation& violation,
+                          std::int64_t samples, double T) {
+    return fmt::format("{} on {}: {}", afferent, channel,
+                       range_violation_message(range, static_cast<double>(violation.samples) * T, static_cast<double>(samples) * T,
+                                               static_cast<double>(violation.first_sample) * T));
 }
 
 std::vector<std::string> response_warnings(const RunStats& stats) {
@@ -77,6 +86,15 @@ std::string excessive_rate_warning(double rate, double T, const AfferentPlan& pl
                             : fmt::format("several spikes come within one sample of {}, which is not a rate", format_quantity(T, "s"));
     return fmt::format("{}; a nerve fibre fires at no more than about {}; check the force's unit and size{}", spikes,
                        format_quantity(max_nerve_rate, "Hz"), advice);
+}
+
+double highest_rate(std::vector<double> values, double T) {
+    return remove_unresolved_rates(values, T) ? std::numeric_limits<double>::infinity() : values[measure_index<PeakRate>()];
+}
+
+std::string channel_rate_warning(double rate, double T, const AfferentPlan& plan, const std::string& channel) {
+    if (!(rate > max_nerve_rate)) return "";
+    return fmt::format("{}: on {} {}", plan.name, channel, excessive_rate_warning(rate, T, plan, plan.name));
 }
 
 }  // namespace corpuscle

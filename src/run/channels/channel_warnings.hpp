@@ -13,6 +13,11 @@ std::vector<std::string> equal_chips_warnings(std::span<const AfferentPlan> affe
 /// Warnings about afferents that membrane noise does not affect. `noise` in A.
 std::vector<std::string> noise_warnings(std::span<const AfferentPlan> afferents, double noise);
 
+/// The warning that a quantity of an afferent was outside its range: "sa1-circuit on press: v(vf) was outside ...". `samples`: number of
+/// all samples, each T seconds long.
+std::string range_warning(const std::string& afferent, const std::string& channel, const ValidRange&, const RangeViolation&,
+                          std::int64_t samples, double T);
+
 /// Warnings about the response: truncated steps, saturation, overflow, quantities outside their range, and circuits that did not converge.
 std::vector<std::string> response_warnings(const RunStats&);
 
@@ -29,5 +34,13 @@ inline constexpr double max_nerve_rate = 1e3;
 /// sample rate 1 / T (s), the warning does not name it, because two spikes within one sample do not define a rate. If the afferent
 /// is refractory for 1 ms or more, the warning asks for faster samples instead. `name`: of the afferent for --set.
 std::string excessive_rate_warning(double rate, double T, const AfferentPlan&, const std::string& name);
+
+/// The highest firing rate (Hz) of a train with these values of all `measures`; infinite if several spikes come within one sample (T, s).
+double highest_rate(std::vector<double> values, double T);
+
+/// The warning about an afferent that fires faster on a channel than a nerve fibre can, as excessive_rate_warning(), preceded by their
+/// names;
+/// "" if its highest `rate` is not too fast.
+std::string channel_rate_warning(double rate, double T, const AfferentPlan&, const std::string& channel);
 
 }  // namespace corpuscle

@@ -6,7 +6,7 @@
 #include "core/text/ascii_text.hpp"
 #include "core/text/quantity.hpp"
 #include "io/quality/deadband.hpp"
-#include "run/summary/silent_afferents.hpp"
+#include "run/firing_factor.hpp"
 
 namespace corpuscle {
 namespace {
@@ -27,35 +27,38 @@ struct NoisyChannel {
 };
 
 /// The noisiest of the channels whose noise is not inside a deadband.
-NoisyChannel noisiest_channel(const ForceSource& source) {
+NoisyChannel noisiest_channel(std::span<const Channel> channels, const RecordingQuality& quality) {
     constexpr double min_band = 2;  // standard deviations; a narrower band lets the noise pass
-    const auto quality = source.quality();
-    std::vector<double> bands(source.channels().size(), 0);
+    std::vector<double> bands(channels.size(), 0);
     for (const auto& m : quality.metrics)
         if (m.name == "deadband") bands[m.channel] = m.value;
     NoisyChannel out;
     for (const auto& m : quality.metrics)
         if (m.name == "noise" && m.value > out.deviation && bands[m.channel] < min_band * m.value)
-            out = {source.channels()[m.channel].name, m.value};
+            out = {channels[m.channel].name, m.value};
     return out;
 }
 
 }  // namespace
 
-std::string sensor_noise_warning(const ForceSource& source, std::span<const NoiseSubject> subjects, const SimulationOptions& run) {
-    const auto [channel, deviation] = noisiest_channel(source);
+std::string sensor_noise_warning(std::span<const Channel> channels, const RecordingQuality& quality, double rate,
+                                 std::span<const NoiseSubject> subjects, const SimulationOptions& run) {
+    const auto [channel, deviation] = noisiest_channel(channels, quality);
     if (!(deviation > 0)) return "";
-    const auto noise = white_noise(deviation, source.clock().rate());
+    const auto noise = white_noise(deviation, rate);
     std::vector<std::string> firing;
     for (const auto& s : subjects)
-        if (s.plan->traits().can_search_factor && factor_to_fire(*s.plan, run, noise) == 1.0) firing.push_back(s.name);
+        if (s.plan->traits().can_search_factor && fires(*s.plan, run, noise)) firing.push_back(s.name);
     if (firing.empty()) return "";
-    const auto channels = source.channels().size();
     return fmt::format(
         "the noise of the sensor, about {} on '{}'{}, is enough to make {} fire. Use --zero 500ms --deadband auto if nothing touches the "
         "sensor in the first half second, otherwise --deadband {}mN",
-        format_quantity(deviation, "N"), channel, channels > 1 ? fmt::format(" (the worst of {} channels)", channels) : "", joined(firing),
-        format_rounded_up(Deadband::max_noise * deviation * 1e3));
+        format_quantity(deviation, "N"), channel, channels.size() > 1 ? fmt::format(" (the worst of {} channels)", channels.size()) : "",
+        joined(firing), format_rounded_up(Deadband::max_noise * deviation * 1e3));
+}
+
+std::string sensor_noise_warning(const ForceSource& source, std::span<const NoiseSubject> subjects, const SimulationOptions& run) {
+    return sensor_noise_warning(source.channels(), source.quality(), source.clock().rate(), subjects, run);
 }
 
 }  // namespace corpuscle

@@ -1,6 +1,7 @@
 #pragma once
 // A warning about the noise of a sensor that is enough to make afferents fire.
 
+#include <span>
 #include <string>
 
 #include "core/afferent_factory.hpp"
@@ -15,7 +16,11 @@ struct NoiseSubject {
 };
 
 /// The warning, with a remedy, if white noise as large as that of the noisiest channel makes one of these afferents fire; otherwise "".
-/// The noise is the metric "noise" of the source's quality(), which is complete after the source has been read. Netlists are not tested.
+/// The noise is the metric "noise" of the quality, which names channels by their index in `channels`. `rate`: of the samples, Hz. Netlists
+/// are not tested.
+std::string sensor_noise_warning(std::span<const Channel> channels, const RecordingQuality&, double rate, std::span<const NoiseSubject>,
+                                 const SimulationOptions&);
+/// The same for a source, whose quality() is complete after it has been read.
 std::string sensor_noise_warning(const ForceSource&, std::span<const NoiseSubject>, const SimulationOptions&);
 
 }  // namespace corpuscle

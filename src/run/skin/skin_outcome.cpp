@@ -10,6 +10,7 @@
 #include "io/table/foreign_format.hpp"
 #include "run/channels/channel_warnings.hpp"
 #include "run/channels/sensor_noise.hpp"
+#include "run/firing_factor.hpp"
 #include "skin/plan/skin_plan.hpp"
 
 namespace corpuscle {

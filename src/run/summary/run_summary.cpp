@@ -106,14 +106,6 @@ void CopyStatistics::add(double x) {
     squares_ += distance * (x - mean_);
 }
 
-bool remove_unresolved_rates(std::vector<double>& values, double T) {
-    constexpr double tolerance = 1e-3;  // for spikes on the samples themselves, which are one sample apart except for rounding
-    bool any = false;
-    for (const auto m : {measure_index<MeanRate>(), measure_index<PeakRate>(), measure_index<FirstRate>(), measure_index<LastRate>()})
-        if (values[m] * T > 1 + tolerance) values[m] = no_value, any = true;
-    return any;
-}
-
 std::string measure_key(const MeasureInfo& m) { return m.unit.empty() ? std::string(m.name) : fmt::format("{}_{}", m.name, m.unit); }
 
 Json document_of(const AfferentPlan& plan) {

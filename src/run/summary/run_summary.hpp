@@ -35,10 +35,6 @@ struct MeasureRow {
     bool has_unresolved_rate = false;                  ///< true: a rate is left out, see remove_unresolved_rates()
 };
 
-/// Removes the rates among the values of all `measures` that come from two spikes within one sample (T, s). They would be multiples of the
-/// sample rate, and say only that the force is too large for an afferent without a refractory time. Returns true if there are any.
-bool remove_unresolved_rates(std::vector<double>& values, double T);
-
 /// A measure as a column heading: "peak (Hz)".
 std::string column_heading(const MeasureInfo&);
 /// A measure as a key in files: "peak_rate_Hz".

@@ -5,28 +5,10 @@
 #include <cmath>
 
 #include "model/catalog.hpp"
+#include "run/firing_factor.hpp"
 
 namespace corpuscle {
 namespace {
-
-constexpr double max_factor = 1e6;
-constexpr double factor_tolerance = 1.02;  // the search stops when its bounds differ by this ratio
-
-/// True if the afferent fires at least once when the force is multiplied by `factor`. False after an error.
-bool fires_with_factor(const Afferent& afferent, std::span<const double> force, double factor) {
-    constexpr std::size_t block = 4096;
-    std::vector<double> scaled(block);
-    std::vector<Spike> spikes;
-    ResponseBlock response{spikes};
-    auto state = afferent.start();
-    for (std::size_t at = 0; at < force.size(); at += block) {
-        const auto count = std::min(block, force.size() - at);
-        for (std::size_t k = 0; k < count; ++k) scaled[k] = factor * force[at + k];
-        if (!afferent.respond({scaled.data(), count}, state, response)) return false;
-        if (!spikes.empty()) return true;
-    }
-    return false;
-}
 
 /// Raises the upper bounds of the force on the afferents of each silent class of a skin to those of this block.
 void raise_class_forces(const Innervation& skin, const RunBlock& block, std::span<const char> is_silent, std::vector<double>& class_force) {
@@ -58,20 +40,6 @@ void raise_class_forces(const Innervation& skin, const RunBlock& block, std::spa
 }
 
 }  // namespace
-
-std::optional<double> factor_to_fire(const AfferentPlan& plan, const SimulationOptions& run, std::span<const double> force) {
-    const auto afferent = make_afferent(plan, run);
-    double low = 1, high = 1;  // it fires at `high`, and not at `low` unless both are 1
-    while (!fires_with_factor(*afferent, force, high)) {
-        if (high >= max_factor) return {};
-        low = high, high *= 2;
-    }
-    while (high > low * factor_tolerance) {
-        const double midpoint = std::sqrt(low * high);
-        (fires_with_factor(*afferent, force, midpoint) ? high : low) = midpoint;
-    }
-    return high;
-}
 
 Result<void> SilenceDetector::begin(const Input& input) {
     const auto& population = input.population;
@@ -144,12 +112,6 @@ std::string silence_message(const std::string& name, const SilentClass& silent) 
     const auto never = fmt::format("{} never fired: the largest force was {:.3g} N", name, silent.max_force);
     if (silent.factor) return fmt::format("{}; it would fire at about {} times this force", never, format_rounded_up(*silent.factor));
     return silent.max_force > 0 ? fmt::format("{}, and even a million times this force would not make it fire", never) : never;
-}
-
-std::string format_rounded_up(double x) {
-    if (!(x > 0) || !std::isfinite(x)) return fmt::format("{:g}", x);
-    const double unit = std::pow(10.0, std::floor(std::log10(x)) - 1);
-    return fmt::format("{:.6g}", std::ceil(x / unit - 1e-9) * unit);
 }
 
 }  // namespace corpuscle

@@ -14,10 +14,6 @@ namespace corpuscle {
 /// samples are ignored.
 inline constexpr std::size_t max_silence_samples = std::size_t{1} << 18;
 
-/// The smallest factor, at least 1, by which `force` (N) must be multiplied for the afferent to fire; the result is at most 2 %
-/// larger. No value if the factor exceeds a million.
-std::optional<double> factor_to_fire(const AfferentPlan&, const SimulationOptions&, std::span<const double> force);
-
 /// A class of the population, none of whose afferents fired on any input.
 struct SilentClass {
     std::size_t class_index = 0;   ///< see Population::class_of()
@@ -56,8 +52,5 @@ std::string nerve_advice(const AfferentPlan&);
 
 /// A message such as "fa1 never fired: the largest force was 0.5 N; it would fire at about 6.3 times this force". `name`: of the class.
 std::string silence_message(const std::string& name, const SilentClass&);
-
-/// A number with two significant digits, rounded up: "1.5", "0.0021".
-std::string format_rounded_up(double);
 
 }  // namespace corpuscle
