@@ -49,17 +49,16 @@ Force read_force(ForceSource& source, bool has_unit) {
 
 RecordingOptions recording_options(const Options& options) {
     RecordingOptions reading;
-    const auto group = recording_option_group(reading);
-    for (const auto& [name, value] : options)
-        name == "rate" ? static_cast<void>(reading.rate = value_or_throw(parse_quantity(value, "Hz")))
-                       : value_or_throw(set_option(group, name, value));
+    NamedOptions named(named_recording_options(reading));
+    for (const auto& [name, value] : options) value_or_throw(named.set(name, value));
     return reading;
 }
 
 }  // namespace api
 
 Force stimulus(const std::string& name, const std::vector<std::string>& settings, double rate, std::uint64_t seed) {
-    return api::read_force(*result_or_throw(value_or_throw(make_stimulus(name, value_or_throw(parse_overrides(settings)), rate, seed)), name));
+    return api::read_force(
+        *result_or_throw(value_or_throw(make_stimulus(name, value_or_throw(parse_overrides(settings)), rate, seed)), name));
 }
 
 Force read_recording(const std::string& path, const Options& options) {

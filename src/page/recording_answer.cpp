@@ -8,6 +8,9 @@
 
 #include "core/text/ascii_text.hpp"
 #include "io/recording/recording_options.hpp"
+#include "io/sandbox/helper_process.hpp"
+#include "io/table/archive.hpp"
+#include "page/documents.hpp"
 #include "page/row.hpp"
 #include "page/temporary_directory.hpp"
 
@@ -31,20 +34,63 @@ Result<std::vector<std::string>> option_texts(const std::string& name, const Jso
     return all.get<std::vector<std::string>>();
 }
 
+/// The options that the page has: without those that name a second file.
+OptionGroup page_options(RecordingOptions& options) {
+    auto group = named_recording_options(options);
+    std::erase_if(group.rows, [](const OptionRow& row) { return row.names == "--layout"; });
+    return group;
+}
+
 /// The options of the request: each is a text, as on the command line, or a list of texts.
 Result<RecordingOptions> read_options(ObjectReader& request) {
     RecordingOptions out;
-    auto group = recording_option_group(out);
-    group.rows.push_back({"--rate", quantity_reader(out.rate.emplace(), "Hz"), "HZ", "sampling rate"});
-    bool has_rate = false;
+    NamedOptions named(page_options(out));
     if (const auto* options = TRY(request.object("options")))
         for (const auto& [name, value] : options->items()) {
-            if (name == "layout") return bad_input("read: the page reads one file, without a layout");
-            for (const auto& text : TRY(option_texts(name, value))) TRY(set_option(group, name, text));
-            has_rate = has_rate || name == "rate";
+            if (name == "layout")
+                return bad_input("read: the page reads one file, without a layout; use the option --layout of `corpuscle respond`");
+            for (const auto& text : TRY(option_texts(name, value))) TRY(named.set(name, text));
         }
-    if (!has_rate) out.rate.reset();
     return out;
+}
+
+/// The options of the command line that a text names and the page does not have: "--layout".
+std::vector<std::string> foreign_options(std::string_view text) {
+    RecordingOptions unused;
+    const auto group = page_options(unused);
+    const auto has_option = [&](std::string_view option) {
+        return std::ranges::any_of(group.rows, [&](const OptionRow& row) { return row.names.substr(0, row.names.find(',')) == option; });
+    };
+    std::vector<std::string> out;
+    for (auto at = text.find("--"); at != text.npos; at = text.find("--", at + 2)) {
+        const bool begins_word = at == 0 || text[at - 1] == ' ' || text[at - 1] == '(';
+        const auto word = text.substr(at, text.find_first_not_of("-abcdefghijklmnopqrstuvwxyz", at) - at);
+        if (begins_word && word.size() > 2 && !has_option(word) && std::ranges::find(out, word) == out.end()) out.emplace_back(word);
+    }
+    return out;
+}
+
+/// The formats that a text names and this engine cannot read, such as that of the file that a remedy makes.
+std::vector<std::string> foreign_formats(std::string_view text) {
+    const bool has_hdf5(find_helper_program("corpuscle-hdf5")), has_sound(find_helper_program("corpuscle-sound"));
+    const std::tuple<std::string_view, const char*, bool> formats[] = {{".npz", "NPZ", Archive::is_supported()},
+                                                                       {".h5", "HDF5", has_hdf5},
+                                                                       {"-v7.3", "HDF5", has_hdf5},
+                                                                       {".wav", "WAV", has_sound},
+                                                                       {".flac", "FLAC", has_sound}};
+    std::vector<std::string> out;
+    for (const auto& [mark, name, is_read] : formats)
+        if (!is_read && text.find(mark) != text.npos && std::ranges::find(out, name) == out.end()) out.emplace_back(name);
+    return out;
+}
+
+/// A text of a reader for the page: if it names options or formats of the command line that the page does not have, says so.
+std::string page_text(std::string text) {
+    if (text.find("corpuscle respond") != text.npos) return text;
+    const auto options = foreign_options(text), formats = foreign_formats(text);
+    if (!options.empty()) text += fmt::format(" ({}: only in `corpuscle respond`)", fmt::join(options, ", "));
+    if (!formats.empty()) text += fmt::format("; the page cannot read {} files, `corpuscle respond` can", fmt::join(formats, " and "));
+    return text;
 }
 
 /// The text of an error or note without the path of the temporary file.
@@ -110,7 +156,7 @@ Result<void> read_recording(ObjectReader& request, std::optional<KeptRecording>&
     const auto directory = TRY(TemporaryDirectory::make());
     const auto path = directory.file(name);
     TRY(write_file(path, bytes->data));
-    const auto clean = [&](const std::string& text) { return without_path(text, path, name); };
+    const auto clean = [&](const std::string& text) { return page_text(without_path(text, path, name)); };
     auto source = open_recording(path, options);
     if (!source) return bad_input(clean(source.error().text()));
     auto force = read_force_of(**source, name);

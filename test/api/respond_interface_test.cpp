@@ -39,6 +39,17 @@ TEST(RespondInterface, HasTheWarningsAndNotesOfTheCommandLine) {
     EXPECT_TRUE(skin.warnings[0].starts_with("no afferent fired: "));
 }
 
+TEST(RespondInterface, OptionsOfARecordingAreThoseOfTheCommandLine) {
+    const test::TemporaryFolder folder;
+    const auto path = folder.write("x.csv", "1,2,3,4\n5,6,7,8\n");
+    const auto channels = [&](const Options& options) { return read_recording(path, options).channels.size(); };
+    EXPECT_EQ(channels({{"rate", "1kHz"}, {"transpose", "true"}}), 2U);
+    EXPECT_EQ(channels({{"rate", "1kHz"}, {"no-transpose", "true"}}), 4U);
+    EXPECT_EQ(error_of([&] { channels({{"rate", "1kHz"}, {"transpose", "true"}, {"no-transpose", "true"}}); }),
+              "transpose and no-transpose exclude each other; give one of them");
+    EXPECT_EQ(error_of([&] { channels({{"rate", "1kHz"}, {"rate", "2kHz"}}); }), "rate is given twice; give it once");
+}
+
 TEST(RespondInterface, ASkinUnderATouchByNameHasItsTotalForce) {
     const auto scan = respond_to("scan", {.population = "fingertip"}, 500);
     ASSERT_TRUE(scan.skin_force);

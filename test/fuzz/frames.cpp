@@ -15,10 +15,11 @@ void require(bool holds) {
     if (!holds) std::abort();
 }
 
-/// A column mapping in reverse order. Rejects names if the first begins with x.
-Result<std::vector<std::uint32_t>> reversed_columns(std::span<const std::string> names) {
-    std::vector<std::uint32_t> columns;
-    for (std::size_t k = names.size(); k-- > 0;) columns.push_back(static_cast<std::uint32_t>(k));
+/// A column mapping in reverse order, with a scale for the length of each name. Rejects names if the first begins with x.
+Result<FrameColumns> reversed_columns(std::span<const std::string> names) {
+    FrameColumns columns;
+    for (std::size_t k = names.size(); k-- > 0;) columns.order.push_back(static_cast<std::uint32_t>(k));
+    for (const auto& name : names) columns.scales.push_back(name.size() % 2 == 0 ? 1 : 1e-3);
     if (names[0].starts_with('x')) return bad_input("no site has this name");
     return columns;
 }

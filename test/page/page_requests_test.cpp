@@ -131,6 +131,40 @@ TEST(PageRequests, ARecordingIsReadFromItsBytes) {
     EXPECT_EQ(wrong.error().find("/tmp"), std::string::npos) << wrong.error();
 }
 
+TEST(PageRequests, OptionsOfARecordingAreRefusedAsOnTheCommandLine) {
+    PageEngine engine;
+    const auto read = [&](const std::string& options, const std::string& text) {
+        return ask(engine, fmt::format(R"({{"request": "read", "name": "x.csv", "options": {}}})", options), "file",
+                   std::vector<std::uint8_t>(text.begin(), text.end()));
+    };
+    const std::string wide = "1,2,3,4\n5,6,7,8\n";
+    EXPECT_EQ(read(R"({"rate": "1kHz", "transpose": "true"})", wide)["channels"].size(), 2U);
+    EXPECT_EQ(read(R"({"rate": "1kHz", "no-transpose": "true"})", wide)["channels"].size(), 4U);
+    EXPECT_EQ(read(R"({"rate": "1kHz", "no-transpose": "true", "transpose": "true"})", wide).error(),
+              "no-transpose and transpose exclude each other; give one of them");
+    EXPECT_EQ(read(R"({"rate": ["1kHz", "2kHz"]})", wide).error(), "rate is given twice; give it once");
+    EXPECT_EQ(read(R"({"layout": "x.csv"})", wide).error(),
+              "read: the page reads one file, without a layout; use the option --layout of `corpuscle respond`");
+    const auto unknown = read(R"({"no-such": "1"})", wide).error();
+    EXPECT_TRUE(unknown.starts_with("unknown option no-such; there are channel, ")) << unknown;
+    EXPECT_EQ(unknown.find("layout"), unknown.npos) << unknown;
+}
+
+TEST(PageRequests, ARemedyThatThePageDoesNotHaveIsThatOfTheCommandLine) {
+    PageEngine engine;
+    std::string text = "a_N,b_N,sum_N\n";
+    for (int k = 0; k < 400; ++k) text += fmt::format("{},{},{}\n", k % 7, k % 11, k % 7 + k % 11);
+    const auto answer = ask(engine, R"({"request": "read", "name": "x.csv", "options": {"rate": "1kHz"}})", "file",
+                            std::vector<std::uint8_t>(text.begin(), text.end()));
+    ASSERT_EQ(answer.error(), "");
+    const auto notes = answer["notes"].get<std::vector<std::string>>();
+    EXPECT_EQ(std::ranges::count(notes,
+                                 "'sum' is the sum of 'a' to 'b', not a sensor of its own; use --channel or --layout to exclude it "
+                                 "(--layout: only in `corpuscle respond`)"),
+              1)
+        << answer["notes"].dump();
+}
+
 TEST(PageRequests, AResponseHasItsWarningsAndGoesOnInAnySlice) {
     PageEngine engine;
     auto answer =

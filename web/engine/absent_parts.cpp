@@ -35,6 +35,7 @@ std::unique_ptr<TextInput> make_gzip_text(std::string path, std::unique_ptr<Text
     return std::make_unique<RefusedGzipText>(std::move(path));
 }
 
+bool Archive::is_supported() { return false; }
 Result<Archive> Archive::open(const std::string& path) { return zip_refusal(path); }
 Result<std::unique_ptr<SeekableBytes>> Archive::bytes(std::size_t, std::string name) const { return zip_refusal(name); }
 Result<std::string> make_archive(const std::vector<ArchiveEntry>&) { return zip_refusal("the archive"); }

@@ -56,9 +56,10 @@ class LiveRun {
     std::unique_ptr<EventSink> sink_;
     std::unique_ptr<StreamPage> page_;  // null: without --serve
     std::unique_ptr<StreamLoop> loop_;
-    std::optional<TaxelLayout> taxels_;    // of --taxels
-    std::vector<std::string> skin_notes_;  // about the skin and the taxels
-    bool is_status_shown_ = false;         // true while the last line of the terminal is the status line
+    std::optional<TaxelLayout> taxels_;      // of --taxels
+    std::vector<std::string> skin_notes_;    // about the skin and the taxels
+    std::vector<std::string> header_notes_;  // about the last header of live frames
+    bool is_status_shown_ = false;           // true while the last line of the terminal is the status line
 
     StreamReportInput report_input() const { return {*skin_, *frames_, *sink_, *format_, *loop_, page_.get()}; }
 
@@ -126,33 +127,12 @@ class LiveRun {
         return {};
     }
 
-    /// Makes the function that reads the names of taxels in a CSV header.
-    HeaderReader taxel_header_reader() const {
-        return [this](std::span<const std::string> names) {
-            return match_frame_columns(*taxels_, names, "the header of " + input_name(args_.in));
-        };
-    }
-
-    /// Makes the function that reads the names in a CSV header. Either all names are sites, or none is. The function returns the site of
-    /// each column, or an empty list if the columns have the order of `sites`: the site of each column according to --layout, or empty for
-    /// all sites in order.
-    HeaderReader header_reader(std::vector<std::uint32_t> sites) const {
-        return [this, sites = std::move(sites)](std::span<const std::string> names) -> Result<std::vector<std::uint32_t>> {
-            const auto& all = skin_->innervation().plan.sites;
-            auto named = find_sites_if_named(all, names);
-            const auto from = input_name(args_.in);
-            if (!named)
-                return bad_input(
-                    fmt::format("{}; use site names in all columns, or in none (columns are then in site order)", named.error().message),
-                    {from + ": header"});
-            if (!*named || sites.empty()) return *named ? **std::move(named) : std::vector<std::uint32_t>();
-            for (std::size_t k = 0; k < sites.size(); ++k)
-                if ((**named)[k] != sites[k])
-                    return bad_input(fmt::format("column {} is site '{}' in the header, but '{}' in {}; remove --layout or the header",
-                                                 k + 1, all.names[(**named)[k]], all.names[sites[k]], args_.recording.layout),
-                                     {from + ": header"});
-            return std::vector<std::uint32_t>();
-        };
+    /// Prints how the header of a sender was read, unless the same was printed for the sender before.
+    void print_header_notes(const std::vector<std::string>& notes) {
+        if (header_notes_ == notes) return;
+        clear_status();
+        corpuscle::print_notes(input_name(args_.in), notes, common_.quiet);
+        header_notes_ = notes;
     }
 
     /// Opens a live input, and the skin that it drives.
@@ -168,7 +148,8 @@ class LiveRun {
         auto bytes = TRY(open_live_input(args_, layout_));
         const auto in_frames = [&](double seconds) { return static_cast<std::int64_t>(std::min(seconds * clock.rate(), 2e9)); };
         frames_ = make_frame_source(std::move(bytes), layout_, in_frames(args_.hold), in_frames(args_.max_gap), args_.batch_frames,
-                                    taxels_ ? taxel_header_reader() : header_reader(sites));
+                                    make_header_reader(args_, skin_->innervation().plan.sites, taxels_ ? &*taxels_ : nullptr, sites,
+                                                       [this](const auto& notes) { print_header_notes(notes); }));
         const auto filters = TRY(make_channel_filters(args_.recording, clock));
         if (taxels_) return assign_taxels(std::move(sites), taxels_->has_axes, filters);
         if (sites.empty()) sites.resize(layout_.sites), std::iota(sites.begin(), sites.end(), 0U);
@@ -275,6 +256,7 @@ class LiveRun {
         if (frame_error.reason != FrameError::width || taxels_ || !args_.recording.layout.empty() || frame_error.found <= stamps)
             return text;
         const auto& plan = skin_->innervation().plan;
+        if (frame_error.has_decimal_commas && layout_.sites > 1) return text;
         if (plan.is_by_channel) return fmt::format("{}; use --channels {} for frames of this width", text, frame_error.found - stamps);
         if (frame_error.found - stamps > plan.sites.size()) return text;
         return fmt::format("{}; use --layout FILE to map the numbers of a frame to sites, or --taxels FILE to spread the forces of taxels",

@@ -87,6 +87,14 @@ Result<FrameLayout> live_layout(const StreamArguments&, std::size_t sites, const
 /// Opens a live input: standard input, a port or a serial device.
 Result<std::unique_ptr<ByteSource>> open_live_input(const StreamArguments&, const FrameLayout&);
 
+/// Makes the function that interprets the headers of live frames: the site, or taxel, and the unit of each column. `mapped` is the site of
+/// each column by --layout, or empty. `report` receives notes about the units. The arguments must outlive the function.
+HeaderReader make_header_reader(const StreamArguments&, const Sites&, const TaxelLayout*, std::vector<std::uint32_t> mapped,
+                                std::function<void(const std::vector<std::string>& notes)> report);
+
+/// The last remedy for a column of live frames that is not a force.
+inline constexpr std::string_view send_only_forces = "send only the columns that are forces, as cut -d, -f2 does";
+
 class StreamPage;
 
 /// The parts of a running or finished stream that the reports read.

@@ -58,7 +58,8 @@ Result<Clock> live_clock(const StreamArguments& args) {
 Result<FrameLayout> live_layout(const StreamArguments& args, std::size_t sites, const Clock& clock) {
     Column column;  // only for the name of the frame in error messages
     column.name = "a frame";
-    const auto scale = TRY(newtons_per_unit(column, args.recording, input_name(args.in)));
+    TRY(check_unit_options(args.recording));
+    const auto scale = TRY(newtons_per_unit(column, args.recording, input_name(args.in), send_only_forces));
     FrameLayout layout;
     layout.kind = args.frames == "csv"   ? FrameKind::csv
                   : args.frames == "f32" ? FrameKind::f32

@@ -12,6 +12,23 @@ std::string_view plain_name(const OptionRow& row) {
     return first.substr(std::min(first.find_first_not_of('-'), first.size()));
 }
 
+/// True for a flag "--no-x".
+bool is_negation(const OptionRow& row) { return row.names.starts_with("--no-"); }
+
+/// True for an option without a value.
+bool is_flag(const OptionRow& row) {
+    if (std::holds_alternative<OptionReader>(row.target)) return row.value.empty();
+    return std::holds_alternative<bool*>(row.target) || std::holds_alternative<std::optional<bool>*>(row.target);
+}
+
+/// True for an option that may be given several times.
+bool may_repeat(const OptionRow& row) {
+    return row.is_repeatable || is_flag(row) || std::holds_alternative<std::vector<std::string>*>(row.target) ||
+           std::holds_alternative<std::vector<double>*>(row.target);
+}
+
+bool excludes(const OptionRow& a, const OptionRow& b) { return a.excludes && b.names.substr(0, b.names.find(',')) == a.excludes; }
+
 Result<void> check_value(const OptionRow& row, const std::string& text) {
     if (const auto* choices = std::get_if<std::vector<std::string>>(&row.check))
         if (std::find(choices->begin(), choices->end(), text) == choices->end())
@@ -54,7 +71,14 @@ struct Setter {
         return value ? (to->push_back(*value), Result<void>()) : value.error();
     }
     Result<void> operator()(bool* to) const { return *to = TRY(parse_flag(row, text)), Result<void>(); }
-    Result<void> operator()(std::optional<bool>* to) const { return *to = TRY(parse_flag(row, text)), Result<void>(); }
+    Result<void> operator()(std::optional<bool>* to) const {
+        const bool value = TRY(parse_flag(row, text));
+        if (!is_negation(row))
+            *to = value;
+        else if (value)
+            *to = false;
+        return {};
+    }
     template <class T>
     Result<void> operator()(T* to) const {
         if constexpr (requires { to->value(); })
@@ -78,15 +102,29 @@ OptionReader override_reader(std::vector<ParameterOverride>& to, std::string opt
     return list_reader(to, [option = std::move(option)](const std::string& text) { return parse_override(text, option); });
 }
 
-Result<void> set_option(const OptionGroup& group, std::string_view name, const std::string& text) {
-    const auto row = std::find_if(group.rows.begin(), group.rows.end(), [&](const OptionRow& r) { return plain_name(r) == name; });
-    if (row == group.rows.end()) {
+Result<void> NamedOptions::check_given(const OptionRow& row) const {
+    for (const auto* other : given_) {
+        if (other == &row && !may_repeat(row)) return bad_usage(fmt::format("{} is given twice; give it once", plain_name(row)));
+        if (excludes(row, *other) || excludes(*other, row))
+            return bad_usage(fmt::format("{} and {} exclude each other; give one of them", plain_name(*other), plain_name(row)));
+    }
+    return {};
+}
+
+Result<void> NamedOptions::set(std::string_view name, const std::string& text) {
+    const auto& rows = group_.rows;
+    const auto row = std::find_if(rows.begin(), rows.end(), [&](const OptionRow& r) { return plain_name(r) == name; });
+    if (row == rows.end()) {
         std::vector<std::string_view> known;
-        for (const auto& r : group.rows) known.push_back(plain_name(r));
+        for (const auto& r : rows) known.push_back(plain_name(r));
         return bad_usage(fmt::format("unknown option {}; there are {}", name, fmt::join(known, ", ")));
     }
     TRY(check_value(*row, text));
-    return std::visit(Setter{*row, text}, row->target);
+    TRY(std::visit(Setter{*row, text}, row->target));
+    if (is_flag(*row) && text == "false") return {};  // not given
+    TRY(check_given(*row));
+    given_.push_back(&*row);
+    return {};
 }
 
 }  // namespace corpuscle

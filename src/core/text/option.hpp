@@ -106,8 +106,22 @@ struct OptionGroup {
     std::vector<OptionRow> rows;
 };
 
-/// Sets the option of this name, such as "lowpass" for --lowpass, from its text. A flag accepts "true" and "false". Errors name the option,
-/// and one that does not exist lists the names that do.
-Result<void> set_option(const OptionGroup&, std::string_view name, const std::string& text);
+/// The options of a group as a program gives them, by name and text. The same are refused as on the command line: an option that is given
+/// twice but is not repeatable, and one that excludes another.
+class NamedOptions {
+    OptionGroup group_;
+    std::vector<const OptionRow*> given_;
+
+    Result<void> check_given(const OptionRow&) const;
+
+public:
+    explicit NamedOptions(OptionGroup group) : group_(std::move(group)) {}
+    NamedOptions(const NamedOptions&) = delete;
+    NamedOptions& operator=(const NamedOptions&) = delete;
+
+    /// Sets the option of this name, such as "lowpass" for --lowpass, from its text. A flag accepts "true", and "false", with which a flag
+    /// "no-x" is as if it were not given. Errors name the option, and one that does not exist lists the names that do.
+    Result<void> set(std::string_view name, const std::string& text);
+};
 
 }  // namespace corpuscle

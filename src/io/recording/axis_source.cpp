@@ -103,7 +103,7 @@ public:
         if (!negative.empty())
             out.warnings.push_back(fmt::format(
                 "the normal force of {} is never positive, so nothing presses. If the file has the force of the skin on the object, "
-                "use --scale -1 (in newtons). If the z axis of the sensor points out of the skin, give a layout with z_axis = out",
+                "use --scale -1 (in newtons). If the z axis of the sensor points out of the skin, give a --layout with z_axis = out",
                 joined(negative)));
         return out;
     }

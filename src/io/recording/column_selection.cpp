@@ -195,7 +195,28 @@ Result<std::optional<std::size_t>> select_time_column(const Table& table, const 
                      {path});
 }
 
-Result<double> newtons_per_unit(const Column& column, const RecordingOptions& options, const std::string& path) {
+Result<void> check_unit_options(const RecordingOptions& options) {
+    if (options.unit && options.scale && *options.unit != "raw")
+        return bad_usage("--unit and --scale exclude each other: both convert the values to newtons");
+    return {};
+}
+
+bool lacks_unit(const Column& column, const RecordingOptions& options) { return column.unit.empty() && !options.unit && !options.scale; }
+
+std::string unitless_note(std::vector<std::string> names) {
+    if (names.empty()) return "";
+    for (auto& name : names) name = fmt::format("'{}'", name);
+    if (names.size() > 6) names.resize(6), names.push_back("...");
+    return fmt::format("no unit for {}: assuming newtons", joined(names));
+}
+
+std::string overridden_unit_note(const Column& column, const RecordingOptions& options) {
+    if (column.unit.empty() || !options.unit || *options.unit == column.unit || options.scale) return "";
+    return fmt::format("--unit {} overrides the unit of '{}' in the header, {}", *options.unit, column.name, column.unit);
+}
+
+Result<double> newtons_per_unit(const Column& column, const RecordingOptions& options, const std::string& path,
+                                std::string_view selection) {
     if (options.scale) return *options.scale;
     const std::string& unit = options.unit ? *options.unit : column.unit;
     if (unit.empty()) return 1.0;
@@ -207,11 +228,11 @@ Result<double> newtons_per_unit(const Column& column, const RecordingOptions& op
     const auto problem = parsed          ? "which is not a force"
                          : unit == "raw" ? "which needs a scale"
                                          : "which is not a known unit of force (N, mN, gf, kgf, lbf ...)";
-    const auto alternatives = options.unit ? "" : ", --unit N if the header is wrong, or --channel to select another column";
+    const auto alternatives = options.unit ? "" : fmt::format(", --unit N if the header is wrong, or {}", selection);
     if (unit == "g" || unit == "kg")  // for a load cell, usually a weight and not a mass
         return bad_input(fmt::format("{}, which is a mass; use --unit {}f if it is the weight of that mass, or --scale S for S newtons "
                                      "per {}{}",
-                                     subject, unit, unit, options.unit ? "" : ", or --channel to select another column"),
+                                     subject, unit, unit, options.unit ? "" : fmt::format(", or {}", selection)),
                          {path});
     return bad_input(
         fmt::format("{}, {}; use --scale S for S newtons per {}{}", subject, problem, unit == "raw" ? "count" : unit, alternatives),

@@ -16,8 +16,20 @@ Result<std::vector<std::size_t>> select_columns(const Table&, std::optional<std:
 /// table found in the file. nullopt: the table has no time column.
 Result<std::optional<std::size_t>> select_time_column(const Table&, const std::optional<std::string>& wanted, const std::string& path);
 
-/// The factor that converts a column's values to newtons. A unit that is not a force is an error.
-Result<double> newtons_per_unit(const Column&, const RecordingOptions&, const std::string& path);
+/// Returns an error if --unit and --scale contradict each other.
+Result<void> check_unit_options(const RecordingOptions&);
+
+/// The factor that converts a column's values to newtons. A unit that is not a force is an error. `selection` is the last remedy in its
+/// message.
+Result<double> newtons_per_unit(const Column&, const RecordingOptions&, const std::string& path,
+                                std::string_view selection = "--channel to select another column");
+
+/// True if neither the heading nor an option gives the unit of a column.
+bool lacks_unit(const Column&, const RecordingOptions&);
+/// The note that the columns of these names have no unit; "" without names.
+std::string unitless_note(std::vector<std::string> names);
+/// The note that --unit overrides the unit in the heading; "" if it does not.
+std::string overridden_unit_note(const Column&, const RecordingOptions&);
 
 /// The factor that converts the values of a time column to seconds. A unit that is not a time is an error.
 Result<double> seconds_per_unit(const Column&, const RecordingOptions&, const std::string& path);

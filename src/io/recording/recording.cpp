@@ -34,8 +34,8 @@ class Recording final : public ForceSource {
     std::unordered_map<std::string, int> name_counts_;  // number of channels with each name
     std::vector<std::string> notes_, selection_notes_;  // selection_notes_: about the selected columns
     std::vector<std::string> calibration_warnings_;
-    std::vector<AxisSensor> axis_sensors_;              // the three-axis sensors whose columns are the channels; empty: none
-    std::vector<std::optional<Position>> placed_;       // the positions of the three-axis sensors, if a layout gives them
+    std::vector<AxisSensor> axis_sensors_;         // the three-axis sensors whose columns are the channels; empty: none
+    std::vector<std::optional<Position>> placed_;  // the positions of the three-axis sensors, if a layout gives them
     std::unique_ptr<HumTable> hum_table_;
     std::optional<ForceRows> rows_;
     std::int64_t samples_ = 0;  // samples returned so far
@@ -164,10 +164,9 @@ class Recording final : public ForceSource {
     /// Adds a channel. If neither the file nor an option gives its unit, appends its name to `unitless`.
     void add_channel(const SensorPlacement& placed, std::vector<std::string>& unitless) {
         const auto& column = table_->columns()[placed.column];
-        if (column.unit.empty() && !options_.unit && !options_.scale && !has_load(placed)) unitless.push_back("'" + column.name + "'");
-        if (!column.unit.empty() && options_.unit && *options_.unit != column.unit && !options_.scale && !is_angle(placed.column))
-            notes_.push_back(
-                fmt::format("--unit {} overrides the unit of '{}' in the header, {}", *options_.unit, column.name, column.unit));
+        if (lacks_unit(column, options_) && !has_load(placed)) unitless.push_back(column.name);
+        if (auto note = overridden_unit_note(column, options_); !note.empty() && !is_angle(placed.column))
+            notes_.push_back(std::move(note));
         const auto& name = placed.name.empty() ? column.name : placed.name;
         const int occurrence = ++name_counts_[name];
         channels_.push_back({static_cast<std::uint32_t>(channels_.size()),
@@ -204,8 +203,7 @@ class Recording final : public ForceSource {
     void add_channels(const std::vector<SensorPlacement>& chosen) {
         std::vector<std::string> unitless;
         for (const auto& placed : chosen) add_channel(placed, unitless);
-        if (unitless.size() > 6) unitless.resize(6), unitless.push_back("...");
-        if (!unitless.empty()) notes_.push_back(fmt::format("no unit for {}: assuming newtons", joined(unitless)));
+        if (auto note = unitless_note(std::move(unitless)); !note.empty()) notes_.push_back(std::move(note));
     }
 
     /// Creates the pipelines of all channels. The filters run on the rows if these are evenly spaced, otherwise on the resampled samples.
@@ -269,8 +267,7 @@ public:
     /// `name`: "" for that of the file.
     Recording(std::string path, const std::string& name, std::unique_ptr<Table> table, RecordingOptions options)
         : table_(std::move(table)), options_(std::move(options)), path_(std::move(path)),
-          name_(name.empty() ? name_of_recording(path_) : name),
-          curve_(options_.interpolation.value_or(Interpolation::linear)) {}
+          name_(name.empty() ? name_of_recording(path_) : name), curve_(options_.interpolation.value_or(Interpolation::linear)) {}
 
     /// Selects the columns, determines the clock and prepares reading.
     Result<void> open() {
@@ -371,8 +368,7 @@ const RecordingFormat& format_of_recording(const std::string& path) {
 }  // namespace
 
 Result<std::unique_ptr<Table>> open_recording_table(const std::string& path, const RecordingOptions& options) {
-    if (options.unit && options.scale && *options.unit != "raw")
-        return bad_usage("--unit and --scale exclude each other: both convert the values to newtons");
+    TRY(check_unit_options(options));
     const auto& format = format_of_recording(path);
     if (options.table.skip_lines > 0 && format.name != "text")
         return bad_usage(

@@ -52,47 +52,54 @@ Result<std::size_t> parse_count(const std::string& text) { return static_cast<st
 }  // namespace
 
 OptionGroup recording_option_group(RecordingOptions& options) {
-    return {"Recordings",
-            {{"--channel,-c", &options.channels, "CHANNEL",
-              "channels of a recording: names, or numbers and ranges (2-5) that count all columns except time"},
-             {"--dataset", &options.table.dataset, "NAME", "array to read from a file with several (HDF5, NPZ), by path or name"},
-             {"--transpose", &options.table.transpose, "", "rows of a recording are channels"},
-             excluding("--transpose", {"--no-transpose", &options.table.transpose, "",
-                                       "rows of a recording are samples, even if there are fewer rows than channels"}),
-             {"--skip", value_reader(options.table.skip_lines, parse_count), "LINES",
-              "number of lines to skip at the beginning of a text file", std::pair(0U, 1'000'000U)},
-             {"--time", &options.time, "COLUMN", "time column of a recording by name or number, or 'none'"},
-             {"--time-unit", &options.time_unit, "UNIT", "unit of the time column, if the header has none: s, ms, us, ns"},
-             {"--unit", &options.unit, "UNIT", "unit of the recording: N, mN, gf, kgf, or raw (with --scale)"},
-             {"--scale", value_reader(options.scale, parse_scale), "S", "newtons per unit of the recording: 0.002, 2mN"},
-             {"--abs", &options.absolute, "", "use the absolute value of each reading"},
-             {"--offset", quantity_reader(options.offset, ""), "X", "reading at zero force, subtracted before --scale"},
-             repeatable({"--calibrate", list_reader(options.calibrations, parse_calibration), "zero=COUNT,load=COUNT@FORCE",
-                         "instead of --offset and --scale: the readings at zero force and under a known load, zero=812,load=2140@2N, or the "
-                         "times at which the recording has them, zero=0s..1s,load=3s..4s@2N (repeatable: fz:zero=...)"}),
-             {"--range", value_reader(options.range, parse_range), "LO..HI",
-              "valid range of readings; --bad-fields says what happens to others"},
-             {"--bad-fields", value_reader(options.bad_fields, parse_bad_fields), "WHAT",
-              "what to do with fields that are not numbers and readings out of --range: error (default for fields), drop the row, "
-              "interpolate (default for readings)",
-              one_of("error", "drop", "interpolate")},
-             {"--despike", value_reader(options.despike, parse_despike), "LIMIT",
-              "outlier limit: readings further than this from the median of 25 neighbours are bad (auto is 6 standard deviations)"},
-             repeatable({"--notch", list_reader(options.notch, quantity_of("Hz")), "FREQUENCY",
-                         "remove mains hum: 50Hz, with a bandwidth of 4 Hz (repeatable)"}),
-             {"--lowpass", quantity_reader(options.lowpass, "Hz"), "FREQUENCY",
-              "low-pass filter at this frequency (Butterworth, second order)"},
-             {"--zero", refuse_if([&options] { return !(*options.zero > 0); }, "must be above 0", quantity_reader(options.zero, "s")),
-              "TIME", "subtract the level of each channel at rest: its median during the first TIME, in which the force is taken as 0"},
-             {"--deadband", value_reader(options.deadband, parse_deadband), "BAND",
-              "remove the sensor's noise: the force follows changes beyond +-BAND only, such as 20mN (auto: 4 times the noise of each "
-              "channel during --zero TIME)"},
-             {"--layout", &options.layout, "FILE", "CSV table of sensor names and positions: channel,name,x_mm,y_mm"},
-             {"--resample", quantity_reader(options.resample, "Hz"), "FREQUENCY", "resample a recording to this rate by interpolation"},
-             {"--interpolation", value_reader(options.interpolation, parse_interpolation), "CURVE",
-              "between the samples for --resample: linear (straight lines, the default), or smooth (a curve without corners, which excite "
-              "FA-I and FA-II)",
-              one_of("linear", "smooth")}}};
+    return {
+        "Recordings",
+        {{"--channel,-c", &options.channels, "CHANNEL",
+          "channels of a recording: names, or numbers and ranges (2-5) that count all columns except time"},
+         {"--dataset", &options.table.dataset, "NAME", "array to read from a file with several (HDF5, NPZ), by path or name"},
+         {"--transpose", &options.table.transpose, "", "rows of a recording are channels"},
+         excluding("--transpose", {"--no-transpose", &options.table.transpose, "",
+                                   "rows of a recording are samples, even if there are fewer rows than channels"}),
+         {"--skip", value_reader(options.table.skip_lines, parse_count), "LINES", "number of lines to skip at the beginning of a text file",
+          std::pair(0U, 1'000'000U)},
+         {"--time", &options.time, "COLUMN", "time column of a recording by name or number, or 'none'"},
+         {"--time-unit", &options.time_unit, "UNIT", "unit of the time column, if the header has none: s, ms, us, ns"},
+         {"--unit", &options.unit, "UNIT", "unit of the recording: N, mN, gf, kgf, or raw (with --scale)"},
+         {"--scale", value_reader(options.scale, parse_scale), "S", "newtons per unit of the recording: 0.002, 2mN"},
+         {"--abs", &options.absolute, "", "use the absolute value of each reading"},
+         {"--offset", quantity_reader(options.offset, ""), "X", "reading at zero force, subtracted before --scale"},
+         repeatable({"--calibrate", list_reader(options.calibrations, parse_calibration), "zero=COUNT,load=COUNT@FORCE",
+                     "instead of --offset and --scale: the readings at zero force and under a known load, zero=812,load=2140@2N, or the "
+                     "times at which the recording has them, zero=0s..1s,load=3s..4s@2N (repeatable: fz:zero=...)"}),
+         {"--range", value_reader(options.range, parse_range), "LO..HI",
+          "valid range of readings; --bad-fields says what happens to others"},
+         {"--bad-fields", value_reader(options.bad_fields, parse_bad_fields), "WHAT",
+          "what to do with fields that are not numbers and readings out of --range: error (default for fields), drop the row, "
+          "interpolate (default for readings)",
+          one_of("error", "drop", "interpolate")},
+         {"--despike", value_reader(options.despike, parse_despike), "LIMIT",
+          "outlier limit: readings further than this from the median of 25 neighbours are bad (auto is 6 standard deviations)"},
+         repeatable({"--notch", list_reader(options.notch, quantity_of("Hz")), "FREQUENCY",
+                     "remove mains hum: 50Hz, with a bandwidth of 4 Hz (repeatable)"}),
+         {"--lowpass", quantity_reader(options.lowpass, "Hz"), "FREQUENCY",
+          "low-pass filter at this frequency (Butterworth, second order)"},
+         {"--zero", refuse_if([&options] { return !(*options.zero > 0); }, "must be above 0", quantity_reader(options.zero, "s")), "TIME",
+          "subtract the level of each channel at rest: its median during the first TIME, in which the force is taken as 0"},
+         {"--deadband", value_reader(options.deadband, parse_deadband), "BAND",
+          "remove the sensor's noise: the force follows changes beyond +-BAND only, such as 20mN (auto: 4 times the noise of each "
+          "channel during --zero TIME)"},
+         {"--layout", &options.layout, "FILE", "CSV table of sensor names and positions: channel,name,x_mm,y_mm"},
+         {"--resample", quantity_reader(options.resample, "Hz"), "FREQUENCY", "resample a recording to this rate by interpolation"},
+         {"--interpolation", value_reader(options.interpolation, parse_interpolation), "CURVE",
+          "between the samples for --resample: linear (straight lines, the default), or smooth (a curve without corners, which excite "
+          "FA-I and FA-II)",
+          one_of("linear", "smooth")}}};
+}
+
+OptionGroup named_recording_options(RecordingOptions& options) {
+    auto group = recording_option_group(options);
+    group.rows.push_back({"--rate", value_reader(options.rate, quantity_of("Hz")), "HZ", "sampling rate"});
+    return group;
 }
 
 }  // namespace corpuscle

@@ -8,4 +8,7 @@ namespace corpuscle {
 /// The options for reading a recording, except --rate, which means something different in each verb.
 OptionGroup recording_option_group(RecordingOptions&);
 
+/// These options with --rate, for programs that name them.
+OptionGroup named_recording_options(RecordingOptions&);
+
 }  // namespace corpuscle

@@ -81,6 +81,8 @@ public:
 
 }  // namespace
 
+bool Archive::is_supported() { return true; }
+
 Result<Archive> Archive::open(const std::string& path) {
     TRY(open_bytes(path));  // its messages are clearer than those of libzip
     int code = 0;

@@ -41,6 +41,7 @@ public:
         std::uint64_t size;  ///< uncompressed, as stated by the archive
     };
 
+    static bool is_supported();  ///< false in the WebAssembly engine of the page, which has no libzip
     static Result<Archive> open(const std::string& path);
     const std::string& path() const { return path_; }
     const std::vector<Member>& members() const { return members_; }

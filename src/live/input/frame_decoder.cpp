@@ -6,6 +6,8 @@
 #include <limits>
 
 #include "core/text/ascii_text.hpp"
+#include "io/text/text_layout.hpp"
+#include "live/input/frame_header.hpp"
 
 namespace corpuscle {
 namespace {
@@ -14,33 +16,6 @@ static_assert(std::endian::native == std::endian::little, "binary frames are cop
 
 constexpr double not_a_number = std::numeric_limits<double>::quiet_NaN();
 constexpr std::size_t max_field = 32;  // largest number of bytes of a field, with its separator
-
-bool is_separator(char c) { return c == ',' || c == ';' || c == '\t' || c == ' '; }
-
-/// Removes the next field from the line. Blanks around a field are ignored; several blanks are one separator.
-std::string_view next_field(std::string_view& line) {
-    const auto end = std::min(static_cast<std::size_t>(std::find_if(line.begin(), line.end(), is_separator) - line.begin()), line.size());
-    const auto field = line.substr(0, end);
-    auto rest = trimmed(line.substr(end));
-    if (!rest.empty() && (rest.front() == ',' || rest.front() == ';')) rest = trimmed(rest.substr(1));
-    line = rest;
-    return field;
-}
-
-/// Number of fields in a line.
-std::size_t fields_in(std::string_view line) {
-    std::size_t fields = 0;
-    for (; !line.empty(); ++fields) next_field(line);
-    return fields;
-}
-
-/// The number in a field, which may be NaN; no value if it is not a number.
-std::optional<double> number_in(std::string_view field) {
-    double x = 0;
-    if (field.starts_with('+')) field.remove_prefix(1);  // from_chars() does not accept it
-    const auto [end, status] = std::from_chars(field.data(), field.data() + field.size(), x);
-    return status == std::errc{} && end == field.data() + field.size() ? std::optional(x) : std::nullopt;
-}
 
 /// The functions for this machine's instruction set.
 const lanes::FrameKernels& best_lanes() {
@@ -70,7 +45,7 @@ std::span<char> FrameDecoder::buffer() {
 
 void FrameDecoder::reset() {
     begin_ = end_ = scanned_ = 0, skipping_ = false, first_ = true;
-    value_index_.clear(), header_error_.reset();
+    comment_.clear(), value_index_.clear(), scale_runs_.clear(), header_error_.reset();
 }
 
 FrameDecoder::Status FrameDecoder::next() {
@@ -94,10 +69,13 @@ FrameDecoder::Status FrameDecoder::next() {
         begin_ = static_cast<std::size_t>(end - bytes_.data()) + 1;
         if (std::exchange(skipping_, false)) return ++seen_, unreadable(FrameError::too_long);
         const auto line = trimmed(full_line.ends_with('\r') ? full_line.substr(0, full_line.size() - 1) : full_line);
-        if (line.empty() || line.front() == '#' || line.front() == '%') continue;
-        if (std::exchange(first_, false) && is_header(line)) {
-            read_header(line);
+        if (line.empty() || is_comment(line)) {
+            if (first_ && line.size() > 1) comment_ = trimmed(line.substr(1));
             continue;
+        }
+        if (std::exchange(first_, false)) {
+            if (take_header(line)) continue;
+            take_header(comment_);  // as numpy.savetxt writes it
         }
         ++seen_;
         if (!header_error_) return read_line(line);
@@ -107,7 +85,7 @@ FrameDecoder::Status FrameDecoder::next() {
 }
 
 FrameDecoder::Status FrameDecoder::unreadable(FrameError::Reason reason, std::size_t found) {
-    if (!first_error_) first_error_ = FrameError{reason, seen_, found, {}};
+    if (!first_error_) first_error_ = {.reason = reason, .frame = seen_, .found = found};
     return Status::unreadable;
 }
 
@@ -121,29 +99,30 @@ bool FrameDecoder::add_datagram(std::size_t bytes) {
     return add_bytes(bytes), true;
 }
 
-/// True for a line with as many fields as a frame, if none of them is a number or "nan".
-bool FrameDecoder::is_header(std::string_view line) const {
-    std::size_t fields = 0;
-    for (; !line.empty(); ++fields)
-        if (number_in(next_field(line))) return false;
-    return fields == layout_.sites + (layout_.stamp == FrameStamp::none ? 0 : 1);
+/// Reads the header if the line is one.
+bool FrameDecoder::take_header(std::string_view line) {
+    const std::size_t stamps = layout_.stamp == FrameStamp::none ? 0 : 1;
+    auto names = header_names(line, layout_.sites + stamps);
+    if (names.empty()) return false;
+    names.erase(names.begin(), names.begin() + static_cast<std::ptrdiff_t>(stamps));
+    return ++headers_, read_header(names), true;
 }
 
-void FrameDecoder::read_header(std::string_view line) {
-    ++headers_;
+void FrameDecoder::read_header(const std::vector<std::string>& names) {
     if (!read_header_) return;
-    std::vector<std::string> names;
-    while (!line.empty()) {
-        auto field = next_field(line);
-        if (field.size() >= 2 && field.front() == '"' && field.back() == '"') field = field.substr(1, field.size() - 2);
-        names.emplace_back(field);
+    auto columns = read_header_(names);
+    if (!columns) {
+        header_error_ = columns.error();
+        return;
     }
-    if (layout_.stamp != FrameStamp::none) names.erase(names.begin());
-    auto indices = read_header_(names);
-    if (!indices)
-        header_error_ = indices.error();
-    else
-        value_index_ = *std::move(indices);
+    std::vector<double> scales(columns->scales.size());  // in the order of values_
+    for (std::size_t k = 0; k < scales.size(); ++k) scales[columns->order.empty() ? k : columns->order[k]] = columns->scales[k];
+    for (std::size_t k = 0; k < scales.size(); ++k)
+        if (k > 0 && scales[k] == scales[k - 1])
+            ++scale_runs_.back().end;
+        else
+            scale_runs_.push_back({k, k + 1, scales[k]});
+    value_index_ = std::move(columns->order);
 }
 
 bool FrameDecoder::read_stamp(double seconds) {
@@ -166,11 +145,20 @@ FrameDecoder::Status FrameDecoder::read_line(const std::string_view line) {
     auto rest = line;
     const bool has_valid_stamp = layout_.stamp == FrameStamp::none || read_stamp(next_field(rest));
     for (std::size_t k = 0; k < values_.size(); ++k) {
-        if (rest.empty()) return unreadable(FrameError::width, fields_in(line));
+        if (rest.empty()) return wrong_width(line);
         values_[value_index_.empty() ? k : value_index_[k]] = number_in(next_field(rest)).value_or(not_a_number);
     }
-    if (!rest.empty()) return unreadable(FrameError::width, fields_in(line));
+    if (!rest.empty()) return wrong_width(line);
     return has_valid_stamp ? Status::frame : unreadable(FrameError::stamp);
+}
+
+FrameDecoder::Status FrameDecoder::wrong_width(std::string_view line) {
+    if (!first_error_)
+        first_error_ = {.reason = FrameError::width,
+                        .frame = seen_,
+                        .found = fields_in(line),
+                        .has_decimal_commas = has_decimal_commas(line, layout_.sites + (layout_.stamp == FrameStamp::none ? 0 : 1))};
+    return Status::unreadable;
 }
 
 std::size_t FrameDecoder::read_forces(std::span<double> force) const {
@@ -178,7 +166,13 @@ std::size_t FrameDecoder::read_forces(std::span<double> force) const {
     if (layout_.range) scaling.low = layout_.range->first, scaling.high = layout_.range->second;
     const auto convert = layout_.kind == FrameKind::f32 ? lanes_.f32 : layout_.kind == FrameKind::i16 ? lanes_.i16 : lanes_.f64;
     const char* const from = layout_.kind == FrameKind::csv ? reinterpret_cast<const char*>(values_.data()) : found_;
-    return convert(from, scaling, force.data(), force.size());
+    if (scale_runs_.empty()) return convert(from, scaling, force.data(), force.size());
+    std::size_t invalid = 0;
+    for (const auto& run : scale_runs_) {
+        scaling.scale = run.scale;
+        invalid += convert(from + run.begin * sizeof(double), scaling, force.data() + run.begin, run.end - run.begin);
+    }
+    return invalid;
 }
 
 }  // namespace corpuscle

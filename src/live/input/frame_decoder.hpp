@@ -1,5 +1,6 @@
 #pragma once
-// Decodes frames from bytes, which arrive in chunks of any size. After construction it allocates memory only if a header arrives.
+// Decodes frames from bytes, which arrive in chunks of any size. After construction it allocates memory only if a header arrives, or a
+// comment before the first frame of a sender.
 
 #include "live/input/frame_layout.hpp"
 #include "live/lanes/kernel.hpp"
@@ -13,6 +14,12 @@ public:
     enum class Status { nothing, frame, unreadable };
 
 private:
+    /// Neighbouring values with the same scale.
+    struct ScaleRun {
+        std::size_t begin, end;
+        double scale;
+    };
+
     FrameLayout layout_;
     const lanes::FrameKernels& lanes_;
     std::vector<char> bytes_;          // the buffer
@@ -23,15 +30,18 @@ private:
     const char* found_ = nullptr;      // values of the found frame, if frames are binary
     std::vector<double> values_;       // values of the found frame, if frames are lines
     HeaderReader read_header_;
+    std::string comment_;                     // the last comment before the first line of this sender; it may be the header
     std::vector<std::uint32_t> value_index_;  // for each number of a line its index in values_; empty: in order
+    std::vector<ScaleRun> scale_runs_;        // the scales of the header, in the order of values_; empty: that of the layout
     std::optional<Error> header_error_;       // error in the header of this sender
     std::uint32_t number_ = 0;                // see number()
     std::int64_t headers_ = 0, seen_ = 0;     // numbers of headers and of frames, readable or not, of all senders
     std::optional<FrameError> first_error_;
 
     Status unreadable(FrameError::Reason, std::size_t found = 0);
-    bool is_header(std::string_view line) const;
-    void read_header(std::string_view line);
+    bool take_header(std::string_view line);
+    void read_header(const std::vector<std::string>& names);
+    Status wrong_width(std::string_view line);
     Status read_line(std::string_view line);
     bool read_stamp(double seconds);
     bool read_stamp(std::string_view text);

@@ -25,8 +25,15 @@ std::string expected_frame(const FrameLayout& layout, std::string_view populatio
 
 /// A remedy for frames of taxels with three axes whose layout does not say so; otherwise "".
 std::string axes_advice(const FrameLayout& layout, std::size_t numbers) {
-    return layout.site_noun == "taxel" && numbers == 3 * layout.sites ? "; for Fx, Fy and Fz of each taxel add a column x_axis to their layout"
-                                                                      : "";
+    return layout.site_noun == "taxel" && numbers == 3 * layout.sites
+               ? "; for Fx, Fy and Fz of each taxel add a column x_axis to their layout"
+               : "";
+}
+
+/// A remedy for a line whose commas may be decimal commas; otherwise "".
+std::string decimal_advice(const FrameError& error) {
+    return error.has_decimal_commas ? "; if its commas are decimal commas, replace them by points before sending, as sed -u 's/,/./g' does"
+                                    : "";
 }
 
 }  // namespace
@@ -38,7 +45,7 @@ std::string describe_frame_error(const FrameError& error, const FrameLayout& lay
             return fmt::format("frame {} has {}; {}", error.frame,
                                error.found < stamps ? "nothing" : contents_of(layout, error.found - stamps),
                                expected_frame(layout, population)) +
-                   axes_advice(layout, error.found - stamps);
+                   decimal_advice(error) + axes_advice(layout, error.found - stamps);
         case FrameError::stamp:
             return fmt::format("frame {} does not begin with {}; {}", error.frame,
                                layout.stamp == FrameStamp::sequence ? "its sequence number, an integer" : "its time in seconds",

@@ -35,10 +35,15 @@ struct FrameLayout {
     std::size_t bytes() const { return stamp_bytes() + sites * value_bytes(); }  ///< size of a binary frame
 };
 
-/// Interprets the header of CSV frames, a first line that contains names instead of numbers. For each name, without that of the stamp,
-/// returns the index of the force in the frame to which the numbers of this column belong. An empty result means that the columns are in
-/// the order of the frame. Names that are refused are an error.
-using HeaderReader = std::function<Result<std::vector<std::uint32_t>>(std::span<const std::string> names)>;
+/// The columns of CSV frames without the stamp, as their header describes them.
+struct FrameColumns {
+    std::vector<std::uint32_t> order;  ///< for each column the index of its force in the frame; empty: in the order of the frame
+    std::vector<double> scales = {};   ///< for each column newtons per unit of its readings; empty: FrameLayout::scale
+};
+
+/// Interprets the header of CSV frames, a first line that contains names instead of numbers. `names` are those of the columns, without that
+/// of the stamp. Names that are refused are an error.
+using HeaderReader = std::function<Result<FrameColumns>(std::span<const std::string> names)>;
 
 /// The reason why a frame could not be read.
 struct FrameError {
@@ -52,6 +57,7 @@ struct FrameError {
     std::int64_t frame = 1;  ///< number of the frame among all that have arrived, from 1
     std::size_t found = 0;
     std::string detail = {};
+    bool has_decimal_commas = false;  ///< with `width`: the width is right if the commas of the line are decimal commas
 };
 
 /// The message for an error: "frame 1 has 16 numbers; 'hand' has 4793 sites, so a frame must have 4793 numbers". `population` is the name
