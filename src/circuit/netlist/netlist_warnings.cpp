@@ -9,7 +9,7 @@
 namespace corpuscle::circuit {
 namespace {
 
-constexpr int max_suggestions = 20;     // similar names are searched for so many nodes: each search compares all nodes
+constexpr int max_suggestions = 20;     // largest number of nodes for which a similar name is searched, which compares all nodes
 constexpr double max_gate_size = 1e-3;  // m; a larger w or l was probably meant in micrometres
 
 /// One warning for all elements for which holds() is true, located at the first of them. Its text is message(first element).
