@@ -104,7 +104,7 @@ TEST(Signals, EndACircuitThatIsSimulatedSlowly) {
     folder.write("slow.toml", "afferent = \"slow.cir\"\nforce = \"press\"\n[[vary]]\nwhat = \"temp\"\nlist = [27, 30]\n");
     const std::vector<std::vector<std::string>> commands = {
         {"respond", "press", "--afferent", "slow.cir", "-o", "new"},
-        {"respond", "press", "press", "--afferent", "slow.cir,sa1", "--threads", "2", "--report", "new"},
+        {"respond", "press", "press", "--afferent", "slow.cir,sa1", "--threads", "2", "--report", "new.html"},
         {"respond", "press", "--afferent", "mc.cir", "--copies", "2", "--json"},
         {"sweep", "slow.toml", "-o", "results"},
     };
@@ -114,7 +114,7 @@ TEST(Signals, EndACircuitThatIsSimulatedSlowly) {
             ASSERT_TRUE(WIFEXITED(status)) << command[0] << ' ' << command[1] << ", signal " << signal << ", status " << status;
             EXPECT_EQ(WEXITSTATUS(status), 130) << test::read_file(folder / ".err");
             EXPECT_NE(test::read_file(folder / ".err").find("corpuscle: interrupted"), std::string::npos);
-            EXPECT_FALSE(fs::exists(folder / "new"));
+            EXPECT_FALSE(fs::exists(folder / "new") || fs::exists(folder / "new.html"));
         }
 }
 
