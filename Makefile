@@ -1,5 +1,5 @@
 # The commands of the README. Each installs the packages it needs (setup/packages).
-.PHONY: demo build page test test-under-load page-and-readers bench fuzz format lint install pictures notebooks reproduction deb setup-run setup-page setup-test setup-bench setup-python setup-deb release asan asan-readers sanitize clean
+.PHONY: demo build page test test-under-load bench fuzz format lint install pictures notebooks reproduction deb setup-run setup-page setup-test setup-bench setup-python setup-deb release asan asan-readers sanitize clean
 
 FUZZ_SECONDS ?= 600
 PREFIX ?= /usr/local
@@ -21,30 +21,27 @@ build: setup-run
 
 # The live page: a skin to press in a browser, with the engine as WebAssembly.
 page: setup-page
-	@web/build build
+	@$(priority) web/build build
 	@echo "Open build/page/press.html in a browser."
 
 # Under the sanitizers the tests of everything that reads files, messages and links, and all fuzzers; `make sanitize` runs all tests.
 # The test of the page server under load takes a minute in which the processors are almost idle: they build the page and the sanitized programs
-# meanwhile, at the lowest priority, so that the delays that it measures are not theirs.
+# meanwhile, at the lowest priority, so that the delays that it measures are not theirs. If it fails, the other tests still run.
 test: setup-test setup-page release
-	$(MAKE) --jobs=2 test-under-load page-and-readers
-	ctest --test-dir build/release --output-on-failure -j 3 -LE load
-	ctest --test-dir build/asan --output-on-failure -j 3 -LE once -R '^reader-tests'
-	$(MAKE) fuzz FUZZ_SECONDS=2
+	CMAKE_BUILD_PARALLEL_LEVEL=$$(nproc) $(MAKE) --jobs=3 priority='nice -n 19' test-under-load page asan-readers; first=$$?; \
+	ctest --test-dir build/release --output-on-failure -j 3 -LE load && \
+	ctest --test-dir build/asan --output-on-failure -j 3 -LE once -R '^reader-tests' && \
+	$(MAKE) fuzz FUZZ_SECONDS=2 && exit $$first
 
 test-under-load:
 	ctest --test-dir build/release --output-on-failure -L load
-
-page-and-readers:
-	CMAKE_BUILD_PARALLEL_LEVEL=$$(nproc) nice -n 19 $(MAKE) --jobs=2 page asan-readers
 
 sanitize: asan
 	ctest --test-dir build/asan --output-on-failure -j 3 -LE once
 
 asan-readers: setup-test
 	cmake --preset asan
-	cmake --build --preset asan --target reader-tests corpuscle-hdf5 corpuscle-sound fuzzers
+	$(priority) cmake --build --preset asan --target reader-tests corpuscle-hdf5 corpuscle-sound fuzzers
 
 release: setup-test setup-python
 	cmake --preset release -D CORPUSCLE_TESTS=ON -D CORPUSCLE_PYTHON=ON

@@ -81,7 +81,7 @@ void ResponseJob::end_plan() {
     for (std::size_t r = 0; r < response.range_violations.size(); ++r)
         if (const auto& violation = response.range_violations[r]; violation.samples > 0)
             response.range_warnings.push_back(range_warning(plans_[plan_].name, force_.channel, afferent_->ranges()[r], violation,
-                                                            static_cast<std::int64_t>(force_.values->size()), force_.clock.T()));
+                                                            static_cast<std::int64_t>(force_.values->size()), force_.clock));
     ++plan_, simulation_.reset(), afferent_.reset();
 }
 

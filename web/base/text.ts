@@ -64,7 +64,7 @@ export function roundTicks(lo: number, hi: number, count: number): Ticks {
     const values: number[] = [];
     for (let k = Math.ceil(lo / step - 1e-9); k * step <= hi + 1e-9 * step; ++k) values.push(k * step);
     const decimals = Math.max(0, Math.min(12, -Math.floor(Math.log10(step) + 1e-9)));
-    const isPlain = Math.max(Math.abs(lo), Math.abs(hi)) < 1e6 && step >= 1e-4;
+    const most = Math.max(Math.abs(lo), Math.abs(hi)), isPlain = step >= 1e-4 && (most < 1e6 || (most < 1e9 && most / step > 1e5));  // six digits would not distinguish them
     return {values, text: (v) => (isPlain ? withMinus(v.toFixed(decimals)) : shortest(v))};
 }
 

@@ -12,7 +12,7 @@ import {settingTexts} from "./settings";
 interface Block { name: string; power: number; nodes: {name: string; voltage: number}[]; devices: {name: string; current: number}[] }
 
 const CHIPS = 50;                           // of a Monte Carlo
-const LEAST_SCALE = 0.9, MOST_SCALE = 1.3;  // of a schematic; its texts are 10 units high
+const MIN_SCALE = 0.9, MAX_SCALE = 1.3;    // of a schematic; its texts are 10 units high
 
 export class Chip {
     private summary = h("p", {class: "readout"});
@@ -51,7 +51,8 @@ export class Chip {
     /// A drawing fills its panel, but its texts stay legible: a large one is wider than the panel, which scrolls.
     private static sized(svg: SVGSVGElement) {
         const {width} = svg.viewBox.baseVal;
-        svg.style.width = `clamp(${LEAST_SCALE * width}px, 100%, ${MOST_SCALE * width}px)`;
+        svg.setAttribute("role", "group");  // a picture would hide its buttons from screen readers
+        svg.style.width = `clamp(${MIN_SCALE * width}px, 100%, ${MAX_SCALE * width}px)`;
         return svg;
     }
 

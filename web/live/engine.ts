@@ -10,7 +10,7 @@ export interface Engine {
     /// The formats of recordings that it reads, for the reader.
     readonly formats: string;
     /// The length of the longest request.
-    readonly mostMegabytes: number;
+    readonly maxMegabytes: number;
     /// Throws the sentence of an error if a file of so many bytes is too long for it. `options`: of the command that reads it.
     checkFile(bytes: number, name: string, options: string): void;
     /// Sets a function that is called with a sentence when the engine ends, after which no request is answered.
@@ -33,7 +33,7 @@ const shellWord = (name: string) => (/^[\w.+@:,/-]+$/.test(name) ? name : `'${na
 abstract class QueueEngine implements Engine {
     abstract readonly place: string;
     abstract readonly formats: string;
-    protected abstract readonly mostBytes: number;  // of a request
+    protected abstract readonly maxBytes: number;  // of a request
     private waiting: Waiting[] = [];
     private failure: Error | null = null;  // after which no request is answered
     private ended: (reason: string) => void = () => {};
@@ -50,12 +50,12 @@ abstract class QueueEngine implements Engine {
         });
     }
 
-    get mostMegabytes() { return megabytes(this.mostBytes); }
+    get maxMegabytes() { return megabytes(this.maxBytes); }
 
     checkFile(bytes: number, name: string, options: string) { this.checkLength(bytes, name, `; type: corpuscle respond ${[shellWord(name), options].join(" ").trim()}`); }
 
     private checkLength(bytes: number, name = "This", command = "") {
-        if (bytes > this.mostBytes) throw new Error(`${name} has ${megabytes(bytes)} MB; the engine of this page accepts ${this.mostMegabytes} MB. The command line has no such limit${command}`);
+        if (bytes > this.maxBytes) throw new Error(`${name} has ${megabytes(bytes)} MB; the engine of this page accepts ${this.maxMegabytes} MB. The command line has no such limit${command}`);
     }
 
     whenEnded(act: (reason: string) => void) {
@@ -81,7 +81,7 @@ abstract class QueueEngine implements Engine {
 export class WorkerEngine extends QueueEngine {
     readonly place = "this browser";
     readonly formats = "CSV, JSON or NPY (the command line reads more: compressed files, HDF5, NWB, sound)";
-    protected readonly mostBytes = 128 << 20;  // the memory of a page is limited
+    protected readonly maxBytes = 128 << 20;  // the memory of a page is limited
     private worker: Worker;
     private hasAnswered = false;
 
@@ -115,8 +115,8 @@ export class SocketEngine extends QueueEngine {
     private socket: WebSocket;
     private unsent: Uint8Array[] = [];  // until the connection is open
 
-    /// `mostBytes`: the server closes the connection after a longer message.
-    constructor(url: string, protected readonly mostBytes: number) {
+    /// `maxBytes`: the server closes the connection after a longer message.
+    constructor(url: string, protected readonly maxBytes: number) {
         super();
         this.socket = new WebSocket(url);
         this.socket.binaryType = "arraybuffer";

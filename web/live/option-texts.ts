@@ -5,6 +5,7 @@ const HOW = "write for example --rate 1kHz";
 /// The words of a line, as a shell divides it: quotation marks of both kinds keep blanks together, a backslash keeps the next character.
 function words(line: string): string[] {
     const rest = line.replace(/(?:'[^']*'|"(?:[^"\\]|\\.)*"|\\.|[^\s'"\\])+|\s+/gs, "");
+    if (rest[0] === "\\") throw new Error("options of the recording: a character is missing after the backslash at the end");
     if (rest) throw new Error(`options of the recording: ${rest[0]} is not closed; write it twice around a text, as in --channel "right thumb"`);
     const unquoted = (part: string) => {
         if (part[0] === "'") return part.slice(1, -1);

@@ -94,6 +94,7 @@ class LivePage {
     }
 
     private async save(how: object, sent: Record<string, NumberArray> = {}) {
+        this.say("");
         try {
             const {head, arrays} = await this.session.engine.request({request: "save", ...how}, sent);
             download(head.name, new Blob([arrays.file]));

@@ -29,7 +29,7 @@ export class Recording {
 
     constructor(private session: Session) {
         const {engine, catalogue} = session;
-        const input: HTMLInputElement = h("input", {type: "file", id: "recording-file", "aria-label": "Recording", onchange: () => {
+        const input: HTMLInputElement = h("input", {type: "file", id: "recording-file", onchange: () => {
             this.read(input.files![0]);
             input.value = "";  // so that the same file can be chosen again
         }});
@@ -44,7 +44,7 @@ export class Recording {
         const play = h("button", {type: "button", id: "play-stimulus", onclick: () => runStimulus(names[chosen])}, "Play");
         append(this.root, h("p", {}, "Recording ", h("label", {class: "file-button"}, "Choose a file", input), " ", this.fileName, " ", stimulus, " ", play),
             h("p", {class: "bar"}, h("label", {title: "how the file is read: options of `corpuscle respond` for recordings"}, "Options of the recording ", this.options)),
-            h("p", {class: "note"}, `A table of forces of at most ${engine.mostMegabytes} MB: ${engine.formats}. It is read and simulated by ${engine.place}; it is not sent anywhere else.`), this.status, this.about, this.replay);
+            h("p", {class: "note"}, `A table of forces of at most ${engine.maxMegabytes} MB: ${engine.formats}. It is read and simulated by ${engine.place}; it is not sent anywhere else.`), this.status, this.about, this.replay);
         this.root.addEventListener("dragover", (event) => event.preventDefault());
         this.root.addEventListener("drop", (event) => {
             event.preventDefault();
@@ -76,7 +76,7 @@ export class Recording {
         try {
             const options = optionTexts(this.options.value);
             engine.checkFile(file.size, file.name, this.options.value);
-            const bytes = new Uint8Array(await file.arrayBuffer());
+            const bytes = new Uint8Array(await file.arrayBuffer().catch(() => { throw new Error(`${file.name} cannot be read: it has changed since it was chosen, or is a folder; choose it again`); }));
             if (number !== this.newest) return;
             const {head} = await engine.request({request: "read", name: file.name, options, keep: true}, {file: bytes});
             if (number === this.newest) this.showChannels(head, file.name);
@@ -96,6 +96,11 @@ export class Recording {
     private async run(force: Force) {
         const {settings, rows: shown} = this.session, trains = settings.rows.map(() => new LiveTrain()), colours = shown.map(({colour}) => colour);
         const rows = settings.rows.map(({afferent, set}) => ({afferent, set: settingTexts(set)})), number = ++this.newest, isNewest = () => number === this.newest;
+        this.clearReplay();
+        if (!rows.length) {
+            this.status.textContent = "There is no afferent to simulate; choose one with Add an afferent.";
+            return;
+        }
         this.status.textContent = `${force.name}: 0 % simulated`;
         try {
             const isDone = await this.session.runJob({request: "respond", seed: settings.seed, rows, ...force.request}, {}, (answer) => {
@@ -107,9 +112,7 @@ export class Recording {
             });
             if (!isDone && isNewest()) this.status.textContent += ", stopped by another simulation";
         } catch (error) {
-            if (!isNewest()) return;
-            this.clearReplay();
-            this.status.textContent = (error as Error).message;
+            if (isNewest()) this.status.textContent = (error as Error).message;
         }
     }
 
@@ -117,7 +120,6 @@ export class Recording {
         const {rate, t0, samples, phases = [], warnings} = head, names: string[] = head.rows.map((row: {name: string}) => row.name);
         const host = h("div", {class: "figures"}), curve = new LiveCurve("force", "N", 1 / rate, null, t0, samples), clock = {t0, T: 1 / rate, samples};
         curve.append(arrays.force, t0);
-        this.clearReplay();
         append(this.replay, warnings.length ? h("ul", {class: "notes all"}, ...warnings.map((text: string) => h("li", {}, text))) : null,
             h("p", {}, h("button", {type: "button", id: "save-replay", title: "Save the spikes of this replay as CSV, as corpuscle respond --out writes them", onclick: () => download("spikes.csv", spikesText(names, channel, trains))}, "Save spikes of this replay")), host);
         const view = (window as any).corpuscle.replay = this.view = new View();

@@ -260,14 +260,13 @@ private:
 
     std::vector<std::string> range_warnings() const {
         std::vector<std::string> warnings;
-        const double T = input_.clock.T();
         for (std::size_t plan = 0; plan < afferents_.size(); ++plan) {
             const auto ranges = afferents_[plan] ? afferents_[plan]->ranges() : std::span<const ValidRange>{};
             for (std::size_t r = 0; r < ranges.size(); ++r) {
                 const auto [scalar, count] = longest_violation(plan, r);
                 if (!scalar) continue;
                 warnings.push_back(range_warning(population_.plans()[plan].name, population_.channel_name(scalar->afferent_index),
-                                                 ranges[r], scalar->range_violations[r], samples_, T) +
+                                                 ranges[r], scalar->range_violations[r], samples_, input_.clock) +
                                    (count > 1 ? fmt::format(" (and on {} other channels, for at most as long)", count - 1) : ""));
             }
         }

@@ -26,10 +26,11 @@ std::vector<std::string> equal_chips_warnings(std::span<const AfferentPlan> affe
 }
 
 std::string range_warning(const std::string& afferent, const std::string& channel, const ValidRange& range, const RangeViolation& violation,
-                          std::int64_t samples, double T) {
+                          std::int64_t samples, const Clock& clock) {
+    const double T = clock.T();
     return fmt::format("{} on {}: {}", afferent, channel,
                        range_violation_message(range, static_cast<double>(violation.samples) * T, static_cast<double>(samples) * T,
-                                               static_cast<double>(violation.first_sample) * T));
+                                               clock.t0 + static_cast<double>(violation.first_sample) * T));
 }
 
 std::vector<std::string> response_warnings(const RunStats& stats) {

@@ -14,9 +14,9 @@ std::vector<std::string> equal_chips_warnings(std::span<const AfferentPlan> affe
 std::vector<std::string> noise_warnings(std::span<const AfferentPlan> afferents, double noise);
 
 /// The warning that a quantity of an afferent was outside its range: "sa1-circuit on press: v(vf) was outside ...". `samples`: number of
-/// all samples, each T seconds long.
+/// all samples.
 std::string range_warning(const std::string& afferent, const std::string& channel, const ValidRange&, const RangeViolation&,
-                          std::int64_t samples, double T);
+                          std::int64_t samples, const Clock&);
 
 /// Warnings about the response: truncated steps, saturation, overflow, quantities outside their range, and circuits that did not converge.
 std::vector<std::string> response_warnings(const RunStats&);

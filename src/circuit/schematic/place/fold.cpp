@@ -101,8 +101,7 @@ public:
         if (order_.empty()) return all_;
         is_row_ = all_.right - all_.left >= all_.bottom - all_.top;
         if (length() <= longest_side || length() <= most_elongated * breadth()) return all_;
-        std::stable_sort(order_.begin(), order_.end(),
-                         [&](std::size_t a, std::size_t b) { return along(extent_of(a)).begin < along(extent_of(b)).begin; });
+        std::ranges::sort(order_, {}, [&](std::size_t part) { return std::pair(along(extent_of(part)).begin, part); });
         move_bands(choose_cuts(std::max(count_of_bands(), 2)));
         set_extent();
         return all_;
