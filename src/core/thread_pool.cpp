@@ -42,7 +42,11 @@ void ThreadPool::for_each(std::size_t count, const Task& task, const std::functi
     run_tasks(0);
     std::unique_lock lock(mutex_);
     const auto has_ended = [this] { return busy_workers_ == 0; };
-    while (while_waiting && !round_ended_.wait_for(lock, wait_interval, has_ended)) lock.unlock(), while_waiting(), lock.lock();
+    while (while_waiting && !round_ended_.wait_for(lock, wait_interval, has_ended)) {
+        lock.unlock();
+        while_waiting();
+        lock.lock();
+    }
     round_ended_.wait(lock, has_ended);
     if (exception_) std::rethrow_exception(std::exchange(exception_, nullptr));
 }

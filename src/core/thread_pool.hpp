@@ -30,7 +30,7 @@ public:
 
     /// Calls task(k, thread) once for each k below `count`, in parallel, and returns when all calls have returned. If a task throws, tasks
     /// that have not begun are skipped, and one of the exceptions is rethrown. `while_waiting`: called again and again by the caller's
-    /// thread while it waits for the tasks of the others.
+    /// thread while it waits for the tasks of the others; it must not throw.
     void for_each(std::size_t count, const Task& task, const std::function<void()>& while_waiting = {});
 
 private:

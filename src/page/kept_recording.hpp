@@ -11,8 +11,8 @@ struct KeptRecording {
     std::string name;  ///< of the source, for messages
     std::vector<Channel> channels;
     Clock clock;
-    std::vector<std::shared_ptr<const std::vector<double>>>
-        force;  ///< of each channel, N; a simulation may still use it when it is replaced
+    /// The force of each channel, N. A simulation may still use it when the recording is replaced.
+    std::vector<std::shared_ptr<const std::vector<double>>> force;
     RecordingQuality quality;
 
     /// The metrics of one channel, as those of a recording that has no other.

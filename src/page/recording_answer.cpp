@@ -93,9 +93,9 @@ std::string page_text(std::string text) {
     return text;
 }
 
-/// The text of an error or note without the path of the temporary file.
-std::string without_path(std::string text, const std::string& path, const std::string& name) {
-    for (auto at = text.find(path); at != text.npos; at = text.find(path)) text.replace(at, path.size(), name);
+/// The text of an error or note without the path of the temporary directory. A file name in it may be quoted for a shell.
+std::string without_path(std::string text, const std::string& directory) {
+    for (auto at = text.find(directory); at != text.npos; at = text.find(directory)) text.erase(at, directory.size());
     return text;
 }
 
@@ -145,18 +145,18 @@ KeptRecording kept_recording(const ForceSource& source, std::vector<std::vector<
 
 Result<void> read_recording(ObjectReader& request, std::optional<KeptRecording>& kept, MessageWriter& answer) {
     const auto name = std::filesystem::path(TRY(request.text("name"))).filename().string();
-    const auto options = TRY(read_options(request));
     const bool keeps = TRY(request.flag("keep"));
+    if (keeps) kept.reset();  // also if this request fails
+    const auto options = TRY(read_options(request));
     const auto* bytes = request.array("file");
     TRY(request.check_all_read());
     if (!bytes || bytes->type != "u8") return bad_input("read: the array \"file\" of type u8 is missing");
     if (name.empty() || name == "." || name == "..") return bad_input("read: \"name\" is not the name of a file, such as touch.csv");
-    if (keeps) kept.reset();
     TRY(refuse_netlist(name));
     const auto directory = TRY(TemporaryDirectory::make());
     const auto path = directory.file(name);
     TRY(write_file(path, bytes->data));
-    const auto clean = [&](const std::string& text) { return page_text(without_path(text, path, name)); };
+    const auto clean = [&](const std::string& text) { return page_text(without_path(text, directory.file(""))); };
     auto source = open_recording(path, options);
     if (!source) return bad_input(clean(source.error().text()));
     auto force = read_force_of(**source, name);

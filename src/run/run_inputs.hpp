@@ -19,7 +19,7 @@ struct RespondOptions {
     Precision precision = Precision::double_precision;
     ThreadPool* pool = nullptr;  ///< threads, or null for only the calling thread; the response does not depend on it
     std::size_t block = 4096;    ///< maximum number of samples in a block; the response does not depend on it
-    /// Called after each block with the completed fraction of the run, 0 to 1, and about 20 times a second within a block that takes long.
+    /// Called after each block with the completed fraction of the run, 0 to 1, and about 20 times a second within a block of circuits.
     /// If it returns false, the run stops. All calls are by the thread that runs the run.
     std::function<bool(double)> should_continue = [](double) { return true; };
 

@@ -70,6 +70,15 @@ TEST(ForeignNetlist, ARecordingIsNamed) {
     }
 }
 
+TEST(ForeignNetlist, TitlesMayBeNumbersOrParameters) {
+    for (const std::string title : {"7400 7402", "2024 05 12", "Parameters vdd=1.8"})
+        EXPECT_EQ(run_netlist(title + "\nv1 a 0 2\nr1 a 0 1\n.op\n").number("v(a)"), 2) << title;
+}
+
+TEST(ForeignNetlist, ANoteOfADrawingDoesNotHideTheValueAfterIt) {
+    EXPECT_EQ(run_netlist("t\ni1 0 a 1\nr1 a 0 $SUB=vss 1000\n.op\n").number("v(a)"), 1000);
+}
+
 TEST(ForeignNetlist, ChipsThatCannotDifferAreNamed) {
     const std::string text = "t\nv1 a 0 1\nr1 a 0 1\nm1 a a 0 0 n w=1u l=1u\n.op\n.mc 3\n";
     const std::string model = ".model n nmos (level=1)\n";

@@ -27,6 +27,19 @@ test::ProgramResult streamed(const TemporaryFolder& folder, const std::string& t
     return run_program(folder, "stream --rate 1kHz " + options + " < frames.csv");
 }
 
+TEST(FrameHeader, SentencesAndEmptyFieldsAreNotHeaders) {
+    EXPECT_EQ(header_names("force (mN)", 1), Names{"force (mN)"});
+    EXPECT_EQ(header_names("load cell HX711 (serial 0417)", 1), Names{});
+    EXPECT_EQ(header_names("load cell (0417), left (b)", 2, true), Names{});
+    EXPECT_EQ(header_names(",,", 3), Names{});
+    const TemporaryFolder folder;
+    for (const std::string comment : {"# load cell HX711 (serial 0417)", "# sampled in ms"}) {
+        const auto ran = streamed(folder, readings(comment, 3, 1), "--population sa1 --channels 3 -q");
+        EXPECT_EQ(ran.out, streamed(folder, readings("# ", 3, 1), "--population sa1 --channels 3 -q").out) << comment << ran.err;
+        EXPECT_GT(std::count(ran.out.begin(), ran.out.end(), '\n'), 10);
+    }
+}
+
 TEST(FrameHeader, GivesTheUnitOfEachColumnAsThatOfARecording) {
     const TemporaryFolder folder;
     const std::string options = "--population sa1,fa1 --channels 2";

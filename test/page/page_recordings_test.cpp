@@ -145,6 +145,26 @@ TEST(PageRecordings, AKeptRecordingGivesTheSpikesOfItsForce) {
               "respond: there is no recording for \"channel\"; send the request \"read\" with \"keep\": true first");
 }
 
+TEST(PageRecordings, AKeptRecordingIsForgottenBeforeOptionsAreRead) {
+    PageEngine engine;
+    ask(engine, R"({"request": "read", "name": "step.csv", "keep": true})", "file", file_of("t,F\n0,0\n0.001,1\n"));
+    const auto refused =
+        ask(engine, R"({"request": "read", "name": "b.csv", "options": {"lowpas": "1Hz"}, "keep": true})", "file", file_of("1\n"));
+    EXPECT_NE(refused.error().find("lowpas"), std::string::npos);
+    EXPECT_NE(ask(engine, R"({"request": "respond", "channel": 0, "rows": [{"afferent": "sa1"}]})").error().find("there is no recording"),
+              std::string::npos);
+}
+
+TEST(PageRecordings, ErrorsDoNotNameTheTemporaryDirectory) {
+    PageEngine engine;
+    for (const std::string name : {"annas.csv", "anna's.csv", "two words.csv"}) {
+        const auto text =
+            ask(engine, fmt::format(R"({{"request": "read", "name": "{}"}})", name), "file", file_of("\x89HDF\r\n\x1a\n more")).error();
+        EXPECT_NE(text, "");
+        EXPECT_EQ(text.find("corpuscle-page-"), std::string::npos) << text;
+    }
+}
+
 TEST(PageRecordings, ANetlistIsNoRecording) {
     PageEngine engine;
     const auto netlist = file_of("Axon-Hillock after Mead\nVdd vdd 0 3.3\n.end\n");

@@ -72,8 +72,8 @@ Result<std::vector<double>> run_transient(AnalysisContext& context, const TranSe
             return !context.hit_iteration_limit && !(stopped = context.is_stopped(time / setup.times.stop));
         },
         setup.initial.charge);
+    if (stopped || context.newton.is_stopped()) return interrupted_error();
     if (!done) return done.error();
-    if (stopped) return interrupted_error();
     if (context.hit_iteration_limit)
         return Error{ErrorCode::not_converged,
                      fmt::format("stopped at {} after {} iterations", format_quantity(t.time(), "s"), t.stats().iterations)};

@@ -90,12 +90,14 @@ std::size_t length_of_drawing_note(std::string_view line, std::size_t k) {
     auto at = k + 2;
     while (at < line.size() && is_name_character(lower(line[at]))) ++at;
     if (at == k + 2 || at + 1 >= line.size() || line[at] != '=' || is_blank(line[at + 1])) return 0;
-    for (at = end_of(" \t", at);;) {  // $T has several numbers
+    const bool has_several = lower(line.substr(k + 2, at - k - 2)) == "t";  // $T=1 0 0 1
+    for (at = end_of(" \t", at); has_several;) {
         const auto next = std::min(line.find_first_not_of(" \t", at), line.size());
         const auto end = end_of(" \t", next);
         if (next == end || line.substr(next, end - next).find_first_not_of("+-.0123456789eE") != std::string_view::npos) return at - k;
         at = end;
     }
+    return at - k;
 }
 
 /// True if a comment begins at character k of a line, which must be outside quotes. A $ begins a comment only after a blank or comma and
@@ -190,7 +192,7 @@ Result<void> LogicalLineReader::append(std::string_view physical, std::size_t fr
     for (std::size_t k = from; k < physical.size(); ++k) {
         char c = physical[k];
         if (quote_ == 0 && begins_comment(physical, k)) break;
-        if (const auto sign = quote_ == '"' || is_text(c) ? std::nullopt : replaced_sign(physical.substr(k))) {
+        if (const auto sign = quote_ == '"' || keeps_case || is_text(c) ? std::nullopt : replaced_sign(physical.substr(k))) {
             next_.text += sign->text, k += sign->length - 1;
             next_.segments.push_back({static_cast<std::uint32_t>(next_.text.size()), number_, static_cast<std::uint32_t>(k) + 2});
             continue;

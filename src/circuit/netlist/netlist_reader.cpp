@@ -111,7 +111,8 @@ private:
     Result<void> take_title(LogicalLineReader& lines) {
         auto title = TRY(lines.title());
         out_.title = std::string(trimmed(title));
-        if (const auto title_in_small = lower(out_.title); is_spectre(title_in_small) || is_row_of_numbers(title_in_small))
+        // Other lines of Spectre, and rows of numbers, may be titles.
+        if (const auto title_in_small = lower(out_.title); begins_with_word(title_in_small, "simulator") && is_spectre(title_in_small))
             return refuse_other_language({title_in_small, {{0, 1, 1}}, std::make_shared<const std::string>(out_.file), {}});
         if (looks_like_statement(out_.title))
             out_.warnings.push_back(error_at({out_.file, 1, 1}, "the first line is the title, so '{}' is not read as a statement",
@@ -172,13 +173,14 @@ private:
         return text.starts_with(word) && (text.size() == word.size() || text[word.size()] == ' ' || text[word.size()] == '\t');
     }
     /// Returns an error if a line shows that the file is not a netlist of SPICE.
-    static Result<void> refuse_other_language(const LogicalLine& line) {
+    Result<void> refuse_other_language(const LogicalLine& line) {
         if (is_spectre(line.text))
             return error_at(line.location(),
                             "'{}' is in the language of Spectre, which is not read; write the netlist in that of SPICE: in Virtuoso, with "
                             "the simulator hspiceD, or as CDL",
                             std::string_view(line.text).substr(0, 40));
-        if (is_row_of_numbers(line.text))
+        const bool begins_with_number = line.text.find_first_of("+-.0123456789") == 0;  // "0.1;2": the rest is a comment
+        if (is_row_of_numbers(line.text) || (begins_with_number && is_row_of_numbers(lower(out_.title))))
             return error_at(line.location(),
                             "'{}' is a line of a recording and not of a netlist; give a recording as the force, and the "
                             "netlist as the afferent: corpuscle respond touch.csv --afferent own.cir",

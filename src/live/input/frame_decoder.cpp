@@ -75,7 +75,7 @@ FrameDecoder::Status FrameDecoder::next() {
         }
         if (std::exchange(first_, false)) {
             if (take_header(line)) continue;
-            take_header(comment_);  // as numpy.savetxt writes it
+            take_header(comment_, true);  // as numpy.savetxt writes it
         }
         ++seen_;
         if (!header_error_) return read_line(line);
@@ -100,12 +100,15 @@ bool FrameDecoder::add_datagram(std::size_t bytes) {
 }
 
 /// Reads the header if the line is one.
-bool FrameDecoder::take_header(std::string_view line) {
+bool FrameDecoder::take_header(std::string_view line, bool is_comment) {
     const std::size_t stamps = layout_.stamp == FrameStamp::none ? 0 : 1;
-    auto names = header_names(line, layout_.sites + stamps);
+    auto names = header_names(line, layout_.sites + stamps, is_comment);
     if (names.empty()) return false;
     names.erase(names.begin(), names.begin() + static_cast<std::ptrdiff_t>(stamps));
-    return ++headers_, read_header(names), true;
+    read_header(names);
+    const bool is_sentence = is_comment && header_error_ && line.find_first_of(",;\t") == line.npos;  // "sampled in ms"
+    if (is_sentence) return header_error_.reset(), false;
+    return ++headers_, true;
 }
 
 void FrameDecoder::read_header(const std::vector<std::string>& names) {

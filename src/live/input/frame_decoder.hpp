@@ -1,6 +1,6 @@
 #pragma once
-// Decodes frames from bytes, which arrive in chunks of any size. After construction it allocates memory only if a header arrives, or a
-// comment before the first frame of a sender.
+// Decodes frames from bytes, which arrive in chunks of any size. After construction it allocates memory only for a header, for comments
+// before the first frame of a sender, and for the first line, which may be one.
 
 #include "live/input/frame_layout.hpp"
 #include "live/lanes/kernel.hpp"
@@ -39,7 +39,7 @@ private:
     std::optional<FrameError> first_error_;
 
     Status unreadable(FrameError::Reason, std::size_t found = 0);
-    bool take_header(std::string_view line);
+    bool take_header(std::string_view line, bool is_comment = false);
     void read_header(const std::vector<std::string>& names);
     Status wrong_width(std::string_view line);
     Status read_line(std::string_view line);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "io/table/heading.hpp"
 #include "io/text/dialect.hpp"
 
 namespace corpuscle {
@@ -13,6 +14,12 @@ std::string_view unquoted_name(std::string_view field) {
 
 /// True if the text begins with a number, which a separator may follow: "3", "0,5".
 bool begins_with_number(std::string_view text) { return number_in(next_field(text)).has_value(); }
+
+/// True for several words with brackets at the end, if there is not a unit in them: "load cell (serial 4)".
+bool is_sentence(std::string_view field) {
+    const auto heading = parse_heading(field);
+    return heading.name.find(' ') != std::string::npos && !heading.unit.empty() && !is_unit(heading.unit);
+}
 
 /// The fields of a line that is split as the readers of recordings do. A line that is to be one field is split by nothing but commas.
 Fields split_header(std::string_view line, std::size_t fields) {
@@ -31,7 +38,7 @@ std::size_t fields_in(std::string_view line) {
     return fields;
 }
 
-std::vector<std::string> header_names(std::string_view line, std::size_t fields) {
+std::vector<std::string> header_names(std::string_view line, std::size_t fields, bool is_comment) {
     line = trimmed(line);
     if (line.empty()) return {};
     auto names = split_header(line, fields);
@@ -39,7 +46,9 @@ std::vector<std::string> header_names(std::string_view line, std::size_t fields)
         names.clear();
         for (auto rest = line; !rest.empty();) names.push_back(unquoted_name(next_field(rest)));
     }
-    if (names.size() != fields || std::any_of(names.begin(), names.end(), begins_with_number)) return {};
+    const auto is_not_name = [](std::string_view name) { return name.empty() || begins_with_number(name); };
+    if (names.size() != fields || std::any_of(names.begin(), names.end(), is_not_name)) return {};
+    if ((is_comment || fields == 1) && std::any_of(names.begin(), names.end(), is_sentence)) return {};
     return {names.begin(), names.end()};
 }
 

@@ -28,8 +28,9 @@ inline std::optional<double> number_in(std::string_view field) {
 }
 
 /// The names in a line that has this number of fields, none of which is a number or "nan"; empty for other lines. A name may contain
-/// blanks, as in "fz [mN]", if blanks are not the separator.
-std::vector<std::string> header_names(std::string_view line, std::size_t fields);
+/// blanks, as in "fz [mN]", if blanks are not the separator. A comment, and a line of one field, is not a header if a field is several
+/// words with brackets at the end that hold no unit.
+std::vector<std::string> header_names(std::string_view line, std::size_t fields, bool is_comment = false);
 
 /// True if the line has this number of fields and all are numbers, provided that its commas are decimal commas.
 bool has_decimal_commas(std::string_view line, std::size_t fields);

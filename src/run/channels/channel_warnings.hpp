@@ -38,9 +38,8 @@ std::string excessive_rate_warning(double rate, double T, const AfferentPlan&, c
 /// The highest firing rate (Hz) of a train with these values of all `measures`; infinite if several spikes come within one sample (T, s).
 double highest_rate(std::vector<double> values, double T);
 
-/// The warning about an afferent that fires faster on a channel than a nerve fibre can, as excessive_rate_warning(), preceded by their
-/// names;
-/// "" if its highest `rate` is not too fast.
+/// The warning about an afferent that fires faster on a channel than a nerve fibre can, with the names of both; "" if its highest `rate`
+/// (Hz) is not too fast.
 std::string channel_rate_warning(double rate, double T, const AfferentPlan&, const std::string& channel);
 
 }  // namespace corpuscle
