@@ -127,7 +127,7 @@ int run_program(const std::string& about, const std::string& first_steps, const 
         app->exit(e, text, text);
         std::fwrite(text.str().data(), 1, text.str().size(), stdout);
     } catch (const std::system_error&) {  // standard output failed: a closed pipe, a full disk
-        if (interrupted()) return report_error({ErrorCode::interrupted, "interrupted"});
+        if (interrupted()) return report_error(interrupted_error());
         const auto done = finish_output();
         return report_error(done ? bad_input("cannot write all of standard output") : done.error());
     } catch (const std::bad_alloc&) {

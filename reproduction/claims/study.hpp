@@ -49,9 +49,7 @@ struct StudyOptions {
     KitRequest kit = {};  ///< the kit of a foundry; only for kit_studies
 
     /// Calls should_continue. If that returns false, returns an error of code `interrupted`, which the study passes on.
-    Result<void> report_progress(double fraction) const {
-        return should_continue(fraction) ? Result<void>() : Error{ErrorCode::interrupted, "interrupted"};
-    }
+    Result<void> report_progress(double fraction) const { return should_continue(fraction) ? Result<void>() : interrupted_error(); }
     /// The path of a folder of recordings; an error if it does not exist.
     Result<std::string> recordings_in(std::string_view folder) const;
 };

@@ -35,7 +35,7 @@ public:
     }
     /// The responses, in the order of the chips.
     Result<std::vector<ChipResponse>> result() {
-        if (stopped_) return Error{ErrorCode::interrupted, "interrupted"};
+        if (stopped_) return interrupted_error();
         return std::move(responses_);
     }
 };

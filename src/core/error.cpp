@@ -21,5 +21,6 @@ Error bad_input(std::string message, SourceLocation location) {
 }
 
 Error bad_usage(std::string message) { return Error{ErrorCode::bad_usage, std::move(message)}; }
+Error interrupted_error() { return {ErrorCode::interrupted, "interrupted"}; }
 
 }  // namespace corpuscle

@@ -39,6 +39,7 @@ struct Error {
 
 Error bad_input(std::string message, SourceLocation location = {});
 Error bad_usage(std::string message);
+Error interrupted_error();  ///< of work that the user, or a caller, has stopped
 
 /// A value, or the error that prevented it. Check with `if (result)` first: * and -> require a value, error() requires an error.
 /// Not a std::variant: that takes the compiler twice as long for each type of value, of which there are hundreds.

@@ -142,7 +142,7 @@ Result<void> DesignEvaluator::pump(WorkerPool& pool) {
         options_.on_progress(simulated_ + reused_);
         if (options_.should_stop()) {
             TRY(write());
-            return Error{ErrorCode::interrupted, "interrupted"};
+            return interrupted_error();
         }
         if (std::chrono::duration<double>(Clock::now() - last_write).count() > write_interval) TRY(write());
     }

@@ -10,6 +10,7 @@
 #include "io/recording/recording_options.hpp"
 #include "io/sandbox/helper_process.hpp"
 #include "io/table/archive.hpp"
+#include "io/table/foreign_format.hpp"
 #include "page/documents.hpp"
 #include "page/row.hpp"
 #include "page/temporary_directory.hpp"
@@ -109,7 +110,7 @@ Result<std::vector<std::vector<double>>> read_force_of(ForceSource& source, cons
             return bad_input(
                 fmt::format("the recording has more than {} million values, the samples of all its channels together, which is the "
                             "limit of the page. Choose channels with --channel, or type: corpuscle respond {}",
-                            max_values / 1'000'000, shell_word(name)));
+                            max_values / 1'000'000, quote_shell_word(name)));
         for (std::size_t c = 0; c < force.size(); ++c)
             force[c].insert(force[c].end(), block.force[c].begin(), block.force[c].begin() + static_cast<std::ptrdiff_t>(block.count));
     }

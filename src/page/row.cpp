@@ -3,7 +3,7 @@
 #include <fmt/format.h>
 #include <algorithm>
 
-#include "core/text/ascii_text.hpp"
+#include "io/table/foreign_format.hpp"
 #include "page/documents.hpp"
 #include "run/afferent_plan.hpp"
 
@@ -20,17 +20,9 @@ Result<void> refuse_path(const std::string& afferent) {
 
 }  // namespace
 
-std::string shell_word(const std::string& name) {
-    constexpr std::string_view plain = "abcdefghijklmnopqrstuvwxyz0123456789_-+./:@,";
-    const auto is_plain = [&](char c) { return plain.find(lower(c)) != plain.npos; };
-    if (!name.empty() && std::ranges::all_of(name, is_plain)) return name;
-    std::string out = "'";
-    for (const char c : name) out += c == '\'' ? "'\\''" : std::string(1, c);
-    return out + "'";
-}
-
 std::string file_afferent_advice(const std::string& file) {
-    return fmt::format("the page has built-in circuits and equations only; type: corpuscle respond press --afferent {}", shell_word(file));
+    return fmt::format("the page has built-in circuits and equations only; type: corpuscle respond press --afferent {}",
+                       quote_shell_word(file));
 }
 
 Result<RowRequest> read_row_request(ObjectReader& object) {

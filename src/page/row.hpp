@@ -18,8 +18,6 @@ Result<RowRequest> read_row_request(ObjectReader&);
 /// The rows of a request: its key "rows".
 Result<std::vector<RowRequest>> read_row_requests(ObjectReader&);
 
-/// A file name as a word that a shell takes.
-std::string shell_word(const std::string& name);
 /// The advice for an afferent in a file, which the page does not read: a command that does.
 std::string file_afferent_advice(const std::string& file);
 

@@ -19,7 +19,7 @@ Result<void> run_input(BlockSimulator& simulator, std::span<Sink* const> sinks, 
         samples = block.end_sample();
         const bool stops = !options.should_continue(completed_fraction(input, simulator.progress()));
         TRY(simulator.save(stops));
-        if (stops) return Error{ErrorCode::interrupted, "interrupted"};
+        if (stops) return interrupted_error();
     }
     if (samples == 0) return bad_input("no samples of force", {input.name});
     std::vector<Spike> last;

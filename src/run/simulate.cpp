@@ -39,7 +39,7 @@ Result<AfferentResponse> simulate(const Afferent& afferent, std::span<const doub
     response.should_stop = options.stop;
     AfferentSimulation simulation(afferent);
     for (std::size_t first = 0; first < force.size(); first += simulated_block) {
-        if (options.stop && options.stop()) return Error{ErrorCode::interrupted, "interrupted"};
+        if (options.stop && options.stop()) return interrupted_error();
         const auto count = std::min(simulated_block, force.size() - first);
         TRY(simulation.respond(padded_block(force, first, count, delay), response));
         for (std::size_t p = 0; p < options.probes.size(); ++p)

@@ -102,10 +102,11 @@ class Files(Replays):
 
     def test_another_channel_clears_the_replay_before_it(self):
         self.load_and_wait(write_recording("left_right.csv", 500, 1000, press, channels=("left", "right")))
-        self.js("""const select = [...document.querySelectorAll('#recording .chooser')].find((one) => one.textContent.startsWith('Channel')).querySelector('select');
+        remaining = self.js("""const select = [...document.querySelectorAll('#recording .chooser')].find((one) => one.textContent.startsWith('Channel')).querySelector('select');
             select.selectedIndex = 1;
-            select.dispatchEvent(new Event("change"));""")
-        self.assertEqual(self.js("return document.querySelectorAll('#replay > *').length"), 0)  # before the engine has answered
+            select.dispatchEvent(new Event("change"));
+            return document.querySelectorAll('#replay > *').length;""")  # before the engine has answered
+        self.assertEqual(remaining, 0)
         self.until(lambda: self.text("recording-status").startswith("left_right.csv, right: 500 ms"))
         self.assertEqual(self.shown()[2], 2)
 

@@ -325,7 +325,7 @@ class LiveRun {
         return args_.out == "-" ? Result<void>() : outputs.check_growing_file(args_.out, is_own_events);
     }
 
-    const Error stopped{ErrorCode::interrupted, "interrupted"};
+    const Error stopped = interrupted_error();
 
 public:
     LiveRun(const StreamArguments& args, const CommonArguments& common) : args_(args), common_(common), unused_(args.settings) {}

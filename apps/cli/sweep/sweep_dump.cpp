@@ -17,7 +17,7 @@ Result<void> dump(const std::string& path) {
         return written && !interrupted();
     });
     if (ok && (!written || std::fflush(stdout) != 0)) return bad_input("cannot write to standard output");
-    if (ok && interrupted()) return Error{ErrorCode::interrupted, "interrupted"};
+    if (ok && interrupted()) return interrupted_error();
     return ok;
 }
 

@@ -55,8 +55,6 @@ void AnalysisContext::apply_variation(const ChipSample& chip) {
     operating_point_.reset();
 }
 
-Error interrupted_error() { return {ErrorCode::interrupted, "interrupted"}; }
-
 Result<double> read_number(const Directive& c, std::size_t word, std::string_view what) {
     if (word >= c.words.size()) return error_at(c.location, ".{}: {} is missing", c.name, what);
     if (const auto x = parse_number(c.words[word])) {

@@ -61,8 +61,6 @@ public:
 /// The quality factor of a root s = -w0 / (2 Q) +- j ...: |s| / (2 |real part|); infinite on the imaginary axis.
 inline double quality_of(std::complex<double> s) { return std::abs(s) / (2 * std::abs(s.real())); }
 
-Error interrupted_error();
-
 /// Reads a number, with SPICE suffixes, from a word of a directive. Words are counted from 0, without the directive's name. Errors contain
 /// the directive, `what` (the meaning of the number) and the word's location.
 Result<double> read_number(const Directive&, std::size_t word, std::string_view what);

@@ -197,7 +197,7 @@ void Batch::decide_steps(std::uint8_t needs_error, std::uint8_t diverged, const 
 Result<void> Batch::run() {
     for (std::size_t l = 0; l < lanes_.size(); ++l) fill(l);
     for (;;) {
-        if (options_.should_stop && options_.should_stop()) return Error{ErrorCode::interrupted, "interrupted"};
+        if (options_.should_stop && options_.should_stop()) return interrupted_error();
         lanes::SolveCall solve{};
         lanes::StepCall step{};
         const auto working = prepare(solve, step);

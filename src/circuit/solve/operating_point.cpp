@@ -194,7 +194,7 @@ private:
     }
 
     Error failure() {
-        if (newton_.is_stopped()) return {ErrorCode::interrupted, "interrupted"};
+        if (newton_.is_stopped()) return interrupted_error();
         const auto& c = system_.circuit();
         if (system_.is_linear() && newton_.singular_unknown >= 0)
             return {ErrorCode::bad_input,

@@ -58,7 +58,7 @@ Result<TimeCheck> check_times(Table& table, RowReader rows, const RowClock& cloc
                                             rows.location(k));
             check.add(last = t);
         }
-        if (!options.should_continue(table.progress())) return Error{ErrorCode::interrupted, "interrupted"};
+        if (!options.should_continue(table.progress())) return interrupted_error();
     }
     TRY(table.rewind());
     return check;

@@ -119,7 +119,7 @@ class JsonReader {
         if (!strict) return error_at(fmt::format("this JSON is nested more than {} deep, so it is not a table", max_depth), line);
         DocumentBuilder builder(should_continue_);
         if (OrderedJson::sax_parse(*strict, &builder)) return std::move(builder.document);
-        if (builder.interrupted) return Error{ErrorCode::interrupted, "interrupted"};
+        if (builder.interrupted) return interrupted_error();
         if (!builder.syntax_error_at) return error_at("this JSON contains a number that is too large", line);
         std::size_t at = 0;  // position of the syntax error in `text`; the parser's position is in `strict`
         static_cast<void>(strict_json(text, std::min(*builder.syntax_error_at, strict->size()), &at));

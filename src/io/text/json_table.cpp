@@ -85,7 +85,7 @@ public:
 
     Result<void> open(LineReader& lines, const std::function<bool()>& should_continue) {
         const auto on_record = [this, &should_continue](auto fields, long line) {
-            if (rows_ % rows_per_block == 0 && !should_continue()) return Result<void>(Error{ErrorCode::interrupted, "interrupted"});
+            if (rows_ % rows_per_block == 0 && !should_continue()) return Result<void>(interrupted_error());
             return add(fields, line);
         };
         TRY(read_json_records(lines, on_record, should_continue, &metadata_));

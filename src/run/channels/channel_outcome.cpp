@@ -18,7 +18,7 @@ void add_of(std::vector<std::string>& to, const std::string& source, const std::
 void append(std::vector<std::string>& to, std::vector<std::string> more) { std::move(more.begin(), more.end(), std::back_inserter(to)); }
 
 /// The highest firing rate of a row, Hz; infinite if several spikes come within one sample.
-double highest_rate(const MeasureRow& row) {
+double highest_rate_of_row(const MeasureRow& row) {
     const auto peak = measure_index<PeakRate>();
     if (row.has_unresolved_rate) return std::numeric_limits<double>::infinity();
     return row.copy_statistics.empty() ? row.values[peak] : row.copy_statistics[peak].max;
@@ -64,7 +64,7 @@ void ChannelOutcome::add_rate_warnings(double T) {
         const MeasureRow* fastest = nullptr;
         double rate = max_nerve_rate;
         for (const auto& row : summary.rows)
-            if (const double r = highest_rate(row); row.afferent == plan.name && r > rate) fastest = &row, rate = r;
+            if (const double r = highest_rate_of_row(row); row.afferent == plan.name && r > rate) fastest = &row, rate = r;
         if (fastest) warnings.push_back(channel_rate_warning(rate, T, plan, fastest->channel));
     }
 }

@@ -229,7 +229,7 @@ private:
             scalars_.size(), [this](std::size_t k, unsigned thread) { simulate_scalar(scalars_[k], thread); },
             [this] { interruption_.ask(); });
         interruption_.rethrow();
-        if (interruption_.is_stopped()) return Error{ErrorCode::interrupted, "interrupted"};
+        if (interruption_.is_stopped()) return interrupted_error();
         for (auto& s : scalars_) {
             // An afferent whose solver may diverge is left out from now on if it does; any other error ends the run.
             if (s.error && !(s.error->code == ErrorCode::not_converged && population_.plan_of(s.afferent_index).traits().may_diverge))

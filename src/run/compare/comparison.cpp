@@ -3,8 +3,8 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
-#include "core/text/quantity.hpp"
 #include "core/text/aligned_table.hpp"
+#include "core/text/quantity.hpp"
 
 namespace corpuscle {
 namespace {
@@ -75,8 +75,7 @@ Result<TrainDifferences> compare_all(const std::vector<NamedTrain>& a, const std
     TrainDifferences out;
     const auto pairs = TRY(pair_trains(a, b, options));
     for (const auto& pair : pairs) {
-        if (!should_continue(static_cast<double>(out.pairs.size()) / static_cast<double>(pairs.size())))
-            return Error{ErrorCode::interrupted, "interrupted"};
+        if (!should_continue(static_cast<double>(out.pairs.size()) / static_cast<double>(pairs.size()))) return interrupted_error();
         out.pairs.push_back(TRY(compare_trains(pair, options)));
         out.total.add(out.pairs.back());
     }

@@ -47,7 +47,7 @@ Result<void> compute_items(const Sweep& sweep, ItemQueue queue, const SweepRunOp
         if (pool.is_done() && (stopped || queue.remaining() == 0 || !pool.sweep_error())) break;  // the last term: there was an error
     }
     TRY(pool.sweep_error());
-    if (stopped) return Error{ErrorCode::interrupted, "interrupted"};
+    if (stopped) return interrupted_error();
     return {};
 }
 
@@ -106,7 +106,7 @@ Result<void> run_sweep(const Sweep& sweep, SweepResults& results, const SweepRun
     while (running > 0) {
         std::this_thread::sleep_for(std::chrono::milliseconds(20));
         TRY(write({}));
-        if (run.should_stop()) return Error{ErrorCode::interrupted, "interrupted"};
+        if (run.should_stop()) return interrupted_error();
     }
     return {};
 }

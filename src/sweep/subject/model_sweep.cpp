@@ -181,7 +181,7 @@ class ModelSweep final : public AfferentSweep {
         std::vector<Spike> spikes;
         ThreadPool single_thread(1);
         for (std::size_t at = 0; at < longest; at += block_steps) {
-            if (stop()) return Error{ErrorCode::interrupted, "interrupted"};
+            if (stop()) return interrupted_error();
             const auto steps = std::min(block_steps, longest - at);
             PopulationForce force;
             if (same_force) {

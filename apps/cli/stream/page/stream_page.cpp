@@ -125,7 +125,7 @@ Result<void> run_page_sessions(const StreamArguments& args, const CommonArgument
     doc["pages"] = page_document(counts);
     if (common.json) fmt::print("{}\n", json_text(doc));
     if (!common.quiet && !common.json) print_message(page_summary(counts));
-    return Error{ErrorCode::interrupted, "interrupted"};
+    return interrupted_error();
 }
 
 }  // namespace corpuscle
