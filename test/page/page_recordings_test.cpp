@@ -1,61 +1,12 @@
-// Recordings that the engine keeps: their clock, and the same warnings as those of the program.
+// Recordings that the engine keeps, and their refusals.
 
 #include <fmt/format.h>
 #include <algorithm>
 
-#include "core/random.hpp"
-#include "page/ask.hpp"
-#include "support/program.hpp"
+#include "page/replay.hpp"
 
 namespace corpuscle::page {
 namespace {
-
-using test::run_program, test::TemporaryFolder;
-
-std::vector<std::uint8_t> file_of(const std::string& text) { return {text.begin(), text.end()}; }
-
-/// A CSV recording in N with this force at each sample.
-template <class Force>
-std::string recording(std::size_t samples, double rate, double t0, Force force) {
-    std::string text = "time_s,force_N\n";
-    for (std::size_t k = 0; k < samples; ++k) text += fmt::format("{:.6f},{:.6f}\n", t0 + static_cast<double>(k) / rate, force(k));
-    return text;
-}
-
-double noise_at(std::size_t k) { return 5e-3 * normal_pair(3, static_cast<std::uint32_t>(k), 1, 0).first; }
-
-/// The answers to `read` and `respond` for a recording.
-struct Replay {
-    PageAnswer read, respond;
-
-    static Replay of(const std::string& name, const std::string& text, const std::string& rows) {
-        PageEngine engine;
-        auto read = ask(engine, fmt::format(R"({{"request": "read", "name": "{}", "keep": true}})", name), "file", file_of(text));
-        EXPECT_EQ(read.error(), "");
-        return {std::move(read), ask_well(engine, fmt::format(R"({{"request": "respond", "channel": 0, "rows": [{}]}})", rows))};
-    }
-    std::string warnings() const {
-        std::string out;
-        for (const auto& warning : respond["warnings"]) out += warning.get<std::string>() + "\n";
-        return out;
-    }
-};
-
-/// Each warning of a replay is one that the program prints.
-void expect_printed(const Replay& replay, const std::string& printed) {
-    for (const auto& warning : replay.respond["warnings"])
-        EXPECT_NE(printed.find(warning.get<std::string>()), std::string::npos) << warning << "\n" << printed;
-}
-
-TEST(PageRecordings, AReplayWarnsOfTheNoiseOfTheSensorAsTheProgramDoes) {
-    const TemporaryFolder folder;
-    const auto text = recording(3000, 1000, 0, noise_at);
-    folder.write("rest.csv", text);
-    const auto replay = Replay::of("rest.csv", text, R"({"afferent": "sa1"}, {"afferent": "fa1-nerve"})");
-    EXPECT_NE(replay.warnings().find("the noise of the sensor, about "), std::string::npos) << replay.warnings();
-    EXPECT_NE(replay.warnings().find("make fa1-nerve fire. Use --zero 500ms --deadband auto"), std::string::npos) << replay.warnings();
-    expect_printed(replay, run_program(folder, "respond rest.csv --afferent sa1,fa1-nerve").err);
-}
 
 TEST(PageRecordings, TheNoiseIsThatOfTheChosenChannel) {
     std::string text = "time_s,quiet_N,noisy_N\n";
@@ -69,23 +20,6 @@ TEST(PageRecordings, TheNoiseIsThatOfTheChosenChannel) {
     EXPECT_EQ(warnings(0).size(), 0U) << warnings(0);
     ASSERT_EQ(warnings(1).size(), 1U) << warnings(1);
     EXPECT_NE(warnings(1)[0].get<std::string>().find("on 'noisy', is enough"), std::string::npos) << warnings(1);
-}
-
-TEST(PageRecordings, AReplayWarnsOfTruncatedStepsAndUnresolvedRatesAsTheProgramDoes) {
-    const TemporaryFolder folder;
-    const auto text = recording(100, 100, 0, [](std::size_t k) { return k < 10 ? 0 : 1e5; });
-    folder.write("strong.csv", text);
-    const auto printed = run_program(folder, "respond strong.csv --afferent sa1,sa1-nerve").err;
-    const auto replay = Replay::of("strong.csv", text, R"({"afferent": "sa1"}, {"afferent": "sa1-nerve"})");
-    EXPECT_NE(replay.warnings().find("steps had more spikes than one step can hold"), std::string::npos) << replay.warnings();
-    EXPECT_NE(replay.warnings().find("several spikes come within one sample"), std::string::npos) << replay.warnings();
-    expect_printed(replay, printed);
-    const auto count = [](const std::string& all, const std::string& part) {
-        std::size_t out = 0;
-        for (auto at = all.find(part); at != all.npos; at = all.find(part, at + 1)) ++out;
-        return out;
-    };
-    for (const char* part : {"truncated", "several spikes"}) EXPECT_EQ(count(replay.warnings(), part), count(printed, part)) << part;
 }
 
 TEST(PageRecordings, AResponseHasTheSamplesOutsideEachRange) {
@@ -107,21 +41,6 @@ TEST(PageRecordings, AResponseHasTheSamplesOutsideEachRange) {
     ASSERT_EQ(chips.error(), "");
     for (const auto& chip : chips["rows"]) EXPECT_EQ(chip["outside"].size(), chips["ranges"].size());
     EXPECT_EQ(chips["ranges"], row["ranges"]);
-}
-
-TEST(PageRecordings, AReplayHasTheTimesOfTheRecording) {
-    const TemporaryFolder folder;
-    const auto text = recording(1000, 1000, 100, [](std::size_t k) { return k > 200 && k < 700 ? 2.0 : 0.0; });
-    folder.write("late.csv", text);
-    const auto replay = Replay::of("late.csv", text, R"({"afferent": "sa1-nerve"})");
-    EXPECT_EQ(replay.read["t0"], 100.0);
-    EXPECT_EQ(replay.respond["t0"], 100.0);
-    EXPECT_EQ(replay.respond["rate"], 1000.0);
-    EXPECT_EQ(replay.respond.numbers("force").size(), 1000U);
-    ASSERT_EQ(run_program(folder, "respond late.csv --afferent sa1-nerve --out out").status, 0);
-    std::string expected = "afferent,channel,time_s\n";
-    for (const double t : replay.respond.numbers("time")) expected += fmt::format("sa1-nerve,force,{:.9f}\n", t);
-    EXPECT_EQ(test::read_file(folder / "out/spikes.csv"), expected);
 }
 
 TEST(PageRecordings, AKeptRecordingGivesTheSpikesOfItsForce) {
