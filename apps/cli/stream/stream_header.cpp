@@ -14,8 +14,8 @@ namespace {
 
 constexpr std::size_t max_override_notes = 6;
 
-/// The headers of one stream.
-class FrameHeader {
+/// Finds the place and the unit of each column that a header names.
+class HeaderColumns {
     const StreamArguments& args_;
     const Sites& sites_;
     const TaxelLayout* taxels_;                    // null: without --taxels
@@ -49,7 +49,7 @@ class FrameHeader {
     }
 
 public:
-    FrameHeader(const StreamArguments& args, const Sites& sites, const TaxelLayout* taxels, std::vector<std::uint32_t> mapped)
+    HeaderColumns(const StreamArguments& args, const Sites& sites, const TaxelLayout* taxels, std::vector<std::uint32_t> mapped)
         : args_(args), sites_(sites), taxels_(taxels), mapped_(std::move(mapped)) {
         if (!taxels_)
             for (const auto& name : sites_.names) places_.insert(lower(name));
@@ -81,12 +81,13 @@ public:
 
 HeaderReader make_header_reader(const StreamArguments& args, const Sites& sites, const TaxelLayout* taxels,
                                 std::vector<std::uint32_t> mapped, std::function<void(const std::vector<std::string>&)> report) {
-    return [header = FrameHeader(args, sites, taxels, std::move(mapped)), report = std::move(report)](std::span<const std::string> names) {
-        std::vector<std::string> notes;
-        auto columns = header.read(names, notes);
-        if (columns) report(notes);
-        return columns;
-    };
+    return
+        [header = HeaderColumns(args, sites, taxels, std::move(mapped)), report = std::move(report)](std::span<const std::string> names) {
+            std::vector<std::string> notes;
+            auto columns = header.read(names, notes);
+            if (columns) report(notes);
+            return columns;
+        };
 }
 
 }  // namespace corpuscle
