@@ -1,5 +1,11 @@
 #include "circuit/netlist/dialects.hpp"
 
+#include <algorithm>
+#include <map>
+
+#include "circuit/expression/spice_number.hpp"
+#include "core/text/ascii_text.hpp"
+
 namespace corpuscle::circuit {
 namespace {
 
@@ -32,6 +38,27 @@ std::size_t find_form(const Statement& s, std::string_view form) {
     return std::string::npos;
 }
 
+/// True for a line, in small letters, that only a netlist for Spectre has: "parameters vdd=1.8".
+bool is_spectre(std::string_view line) {
+    const auto end = std::min(line.find_first_of(" \t"), line.size());
+    const auto word = line.substr(0, end), rest = line.substr(end);
+    if (word == "simulator") return rest.find("spectre") != std::string_view::npos;
+    return (word == "parameters" && rest.find('=') != std::string_view::npos) ||
+           ((word == "simulatoroptions" || word == "saveoptions") && trimmed(rest).starts_with("options"));
+}
+
+/// True for two or more numbers between commas, semicolons, tabs or blanks, as recordings have them.
+bool is_row_of_numbers(std::string_view line) {
+    std::size_t numbers = 0;
+    for (std::size_t at = line.find_first_not_of(" \t,;"); at != std::string_view::npos; ++numbers) {
+        const auto end = std::min(line.find_first_of(" \t,;", at), line.size());
+        const auto number = parse_number(line.substr(at, end - at));
+        if (!number || !number->suffix.empty()) return false;
+        at = line.find_first_not_of(" \t,;", end);
+    }
+    return numbers >= 2;
+}
+
 }  // namespace
 
 Dialect recognise_dialect(const ParsedNetlist& parsed) {
@@ -60,6 +87,46 @@ void warn_about_dialect(ParsedNetlist& parsed) {
         !parsed.temperatures.empty() || std::ranges::any_of(parsed.options, [](const Statement* s) { return s->find("temp"); });
     if (dialect == Dialect::hspice && !has_temperature)
         parsed.warnings.push_back(error_at({parsed.file}, "the temperature is 27 C; the default of HSPICE is 25 C: write .temp 25"));
+}
+
+std::string_view remedy_for_missing(std::string_view directive) {
+    static const std::map<std::string_view, std::string_view> all = {{".data", "; write .step param NAME list VALUE ..."},
+                                                                     {".machine", ""},
+                                                                     {".hb", "; a .tran of many periods with .four gives the harmonics"},
+                                                                     {".pss", "; a .tran of many periods with .four gives the harmonics"},
+                                                                     {".fft", "; use .four FREQUENCY CURVE"},
+                                                                     {".disto", "; use .four FREQUENCY CURVE"},
+                                                                     {".sp", "; use .ac"},
+                                                                     {".stimulus", "; write the waveform in the line of the source"},
+                                                                     {".connect", "; use one name for both nodes, or a 0 V source"},
+                                                                     {".sampling", "; use .mc COUNT"}};
+    return all.at(directive);
+}
+
+bool is_simulator_line(std::string_view line) {
+    constexpr std::string_view word = "simulator";
+    return line.starts_with(word) && (line.size() == word.size() || line[word.size()] == ' ' || line[word.size()] == '\t');
+}
+
+Result<void> refuse_other_language(const LogicalLine& line, std::string_view title) {
+    if (is_spectre(line.text))
+        return error_at(line.location(),
+                        "'{}' is in the language of Spectre, which is not read; write the netlist in that of SPICE: in Virtuoso, with the "
+                        "simulator hspiceD, or as CDL",
+                        std::string_view(line.text).substr(0, 40));
+    const bool begins_with_number = line.text.find_first_of("+-.0123456789") == 0;  // "0.1;2": the rest is a comment
+    if (is_row_of_numbers(line.text) || (begins_with_number && is_row_of_numbers(lower(title))))
+        return error_at(line.location(),
+                        "'{}' is a line of a recording and not of a netlist; give a recording as the force, and the netlist as the "
+                        "afferent: corpuscle respond touch.csv --afferent own.cir",
+                        std::string_view(line.text).substr(0, 40));
+    return {};
+}
+
+Result<void> refuse_title_of_other_language(const ParsedNetlist& parsed) {
+    const auto title = lower(parsed.title);
+    if (!is_simulator_line(title) || !is_spectre(title)) return {};
+    return refuse_other_language({title, {{0, 1, 1}}, std::make_shared<const std::string>(parsed.file), {}}, "");
 }
 
 }  // namespace corpuscle::circuit

@@ -4,6 +4,9 @@
 #include "circuit/expression/spice_number.hpp"
 #include "circuit/netlist/parasitic/voltage_loops.hpp"
 #include "circuit/netlist/scope.hpp"
+#include "circuit/netlist/settings/directive_words.hpp"
+#include "circuit/netlist/settings/node_voltages.hpp"
+#include "circuit/netlist/settings/option_lines.hpp"
 #include "circuit/netlist/settings/set_lines.hpp"
 #include "core/text/ascii_text.hpp"
 
@@ -20,18 +23,10 @@ class CircuitElaborator {
     Scope top_;
     Statement definition_line_;  // the X line of run_definition()
 
-    struct NodeVoltage {
-        std::string node;  // its name in the circuit
-        double value;      // V
-        SourceLocation location;
-        bool is_ic;  // true: from .ic; false: from .nodeset
-    };
-    std::vector<NodeVoltage> node_voltages_;
-    /// Names with a path in the .ic and .nodeset lines of the top level; for a port, the node that it is connected to, else -1.
-    std::unordered_map<std::string, int> ports_in_ic_;
+    NodeVoltages node_voltages_;
     /// Whether a subcircuit uses a name that an X line gives and its .subckt line does not.
     std::map<std::pair<const SubcktDef*, std::string>, std::optional<bool>> used_names_;
-    std::map<std::string, std::string> suggestions_;  // by the name of an unknown subcircuit
+    Suggestions similar_subcircuits_;
 
 public:
     /// `overrides`: with the values of the .set lines. `changes_values`: true if values differ from those of the netlist as written.
@@ -49,8 +44,8 @@ public:
         c.node_numbers.emplace("0", 0);
         TRY(define_top(given));
         c.parameters = top_.parameters;
-        TRY(read_settings());
-        find_paths_in_ic();
+        TRY(read_settings(parsed_, top_, builder_.overrides, c));
+        node_voltages_.find_paths(parsed_.top.ics);
         const auto count = parsed_.top.elements.size();
         c.elements.reserve(count), c.element_numbers.reserve(count), c.node_numbers.reserve(count);
         TRY(elaborate_contents(top_));
@@ -58,11 +53,11 @@ public:
         TRY(check_stepped());
         TRY(check_set_lines(parsed_, c));
         TRY(check_references());
-        TRY(resolve_node_voltages());
+        TRY(node_voltages_.resolve(c));
         if (instances_ == nullptr) add_resistance_in_loops(c);
         for (const auto* s : parsed_.directives)
-            if (top_.holds(*s)) add_directive(*s);
-        apply_overrides_to_directives(c);
+            if (top_.holds(*s)) c.directives.push_back(make_directive(top_, *s));
+        apply_directive_overrides(builder_.overrides, changes_values_, c);
         c.has_random_values = builder_.random.is_used();
         warn_of_means(c);
         return std::move(c);
@@ -74,7 +69,7 @@ public:
         c.title = parsed_.title, c.file = parsed_.file;
         c.node_numbers.emplace("0", 0);
         TRY(define_top({}));
-        TRY(read_settings());
+        TRY(read_settings(parsed_, top_, builder_.overrides, c));
         TRY(elaborate_definition(name));
         if (!builder_.refusals.empty()) return builder_.refusals.combined();
         TRY(check_references());
@@ -85,22 +80,6 @@ public:
     const Refusals& refusals() const { return builder_.refusals; }
 
 private:
-    /// The name in the circuit of a node that Xyce calls x1:a.
-    static std::string with_dots(std::string name) {
-        std::ranges::replace(name, ':', '.');
-        return name;
-    }
-    void find_paths_in_ic() {
-        for (const auto* s : parsed_.top.ics)
-            for (std::size_t k = 1; k < s->words.size(); ++k) {
-                const auto text = s->text(k);
-                const auto close = text.find(')');
-                if (!text.starts_with("v(") || close == std::string_view::npos) continue;
-                const auto name = with_dots(std::string(trimmed(text.substr(2, close - 2))));
-                if (name.find('.') != std::string::npos) ports_in_ic_.emplace(name, -1);
-            }
-    }
-
     /// Warns if the netlist has random values, but nothing draws them.
     void warn_of_means(Circuit& c) const {
         const auto is_mc = [](const Directive& directive) { return directive.name == "mc"; };
@@ -179,7 +158,7 @@ private:
         for (const auto* s : scope.definition->ics) {
             if (!scope.holds(*s)) continue;
             TRY(builder_.count_statement(scope, *s));
-            TRY(read_node_voltages(scope, *s));
+            TRY(node_voltages_.read(builder_, scope, *s));
         }
         return {};
     }
@@ -241,15 +220,13 @@ private:
         return error_at(s.location(name), "{}: unknown subcircuit '{}'{}", s.text(0), s.text(name),
                         similar_subcircuit(scope, s.text(name)));
     }
-    /// The suggestion for an unknown subcircuit. Each search compares all names, so only the first names are searched for, each once.
     std::string similar_subcircuit(const Scope& scope, std::string_view name) {
-        constexpr std::size_t max_suggestions = 20;
-        const auto [at, is_new] = suggestions_.try_emplace(std::string(name));
-        if (!is_new || suggestions_.size() > max_suggestions) return at->second;
-        std::vector<std::string_view> known;
-        for (const Scope* f = &scope; f; f = f->enclosing)
-            for (const auto& [subcircuit, body] : f->definition->subcircuits) known.push_back(subcircuit);
-        return at->second = did_you_mean(name, known);
+        return similar_subcircuits_.for_name(name, [&] {
+            std::vector<std::string_view> known;
+            for (const Scope* f = &scope; f; f = f->enclosing)
+                for (const auto& [subcircuit, body] : f->definition->subcircuits) known.push_back(subcircuit);
+            return known;
+        });
     }
 
     /// Connects the ports of the subcircuit to the nodes that the X line names.
@@ -269,9 +246,7 @@ private:
                                             s.text(0), ports[k], inner.definition->name, outside));
             const int node = builder_.find_or_add_node(scope, outside);
             inner.ports.emplace(ports[k], instances_ == nullptr ? node : add_port_node(inner.path, ports[k]));
-            if (ports_in_ic_.empty()) continue;
-            const auto named = ports_in_ic_.find(fmt::format("{}{}.{}", scope.path, s.text(0), ports[k]));
-            if (named != ports_in_ic_.end()) named->second = node;
+            node_voltages_.connect_port(inner.path, ports[k], node);
         }
         return {};
     }
@@ -372,180 +347,6 @@ private:
         for (const auto& e : builder_.circuit.elements)
             if (has_role(e, role)) names.push_back(e.name);
         return names;
-    }
-
-    // ---- .options, .temp, .ic, .nodeset ----
-
-    /// Reads .options and .temp, then the overrides of temperature and mismatch.
-    Result<void> read_settings() {
-        Circuit& c = builder_.circuit;
-        for (const auto* s : parsed_.options) TRY(read_options(*s));
-        for (const auto& [name, value] : builder_.overrides.options) c.options.insert_or_assign(name, value);
-        if (const auto at = c.options.find("temp"); at != c.options.end()) c.temperature = at->second;
-        for (const auto* s : parsed_.temperatures) {
-            if (s->words.size() < 2) return error_at(s->location(1), ".temp: expected temperatures, in Celsius");
-            for (std::size_t k = s->words.size() - 1; k > 0; --k) c.temperature = TRY(top_.evaluate(without_braces(*s, s->words[k], 0)));
-            if (s->words.size() > 2 && !builder_.overrides.temperature) step_temperature(*s);
-        }
-        c.temperature = builder_.overrides.temperature.value_or(c.temperature);
-        c.mismatch_seed = builder_.overrides.mismatch_seed, c.chip = builder_.overrides.chip;
-        return {};
-    }
-
-    /// Several temperatures repeat all analyses, as in PSpice. An override of the temperature replaces all of them.
-    void step_temperature(const Statement& s) {
-        Directive out{"step", {"temp", "list"}, {}, s.line.location()};
-        for (std::size_t k = 1; k < s.words.size(); ++k) out.words.push_back(without_blanks(s, s.words[k]));
-        builder_.circuit.directives.push_back(std::move(out));
-    }
-
-    /// True if an option of another simulator has no counterpart here; adds a warning.
-    bool is_ignored_option(std::string_view name, XycePackage package, const SourceLocation& location) {
-        if (name == "scale") return false;  // which Xyce has in the package "parser"
-        if (is_small_element_option(name)) {
-            builder_.circuit.warnings.push_back(
-                error_at(location, ".options: '{}' is ignored: no such elements are added; if they matter, write them", name));
-            return true;
-        }
-        if (package == XycePackage::none ? !is_foreign_option(name) : package == XycePackage::devices && is_option(name)) return false;
-        builder_.circuit.warnings.push_back(package == XycePackage::none
-                                                ? error_at(location, ".options: '{}' is not known and is ignored", name)
-                                                : error_at(location, ".options: '{}' belongs to Xyce's solver and is ignored", name));
-        return true;
-    }
-
-    Result<void> read_options(const Statement& s) {
-        Circuit& c = builder_.circuit;
-        const auto package = s.words.size() > 1 ? xyce_package(s.text(1)) : XycePackage::none;
-        for (std::size_t k = package == XycePackage::none ? 1 : 2; k < s.words.size(); ++k) {
-            if (is_ignored_option(s.text(k), package, s.location(k))) continue;
-            TRY(check_option(s.text(k), {}, {}, s.location(k)));
-            c.options.insert_or_assign(std::string(s.text(k)), 1.0);
-        }
-        for (const auto& pair : s.pairs) {
-            const std::string name(s.text(pair.name));
-            if (is_ignored_option(name, package, s.location(pair.name))) continue;
-            const auto text = s.text(pair.value);
-            const bool is_word = pair.value.kind == Word::Kind::quoted ||
-                                 (pair.value.kind == Word::Kind::plain && text[0] >= 'a' && text[0] <= 'z' && !top_.parameter(text));
-            if (is_word) {
-                TRY(check_option(name, {}, text, s.location(pair.name)));
-                c.option_words.insert_or_assign(name, std::string(text));
-                continue;
-            }
-            const auto value = TRY(top_.evaluate({&s, pair.value}));
-            TRY(check_option(name, value, {}, s.location(pair.name)));
-            c.options.insert_or_assign(name, value);
-        }
-        return {};
-    }
-
-    /// The part of a directive's word from offset `from` on, without surrounding braces or quotes.
-    static WordRef without_braces(const Statement& s, Word w, std::uint32_t from) {
-        w.at += from, w.size -= from;
-        const auto text = s.text(w);
-        if (text.size() >= 2 && ((text[0] == '{' && text.back() == '}') || (text[0] == '\'' && text.back() == '\'')))
-            w = {Word::Kind::expression, w.at + 1, w.size - 2};
-        return {&s, w};
-    }
-
-    /// Reads .ic v(a)=1 v(b)={x}, or a .nodeset of the same form. The nodes may not exist yet.
-    Result<void> read_node_voltages(const Scope& scope, const Statement& s) {
-        for (std::size_t k = 1; k < s.words.size(); ++k) {
-            const auto text = s.text(k);
-            const auto close = text.find(')'), equals = text.find_first_not_of(" \t", std::min(close, text.size() - 1) + 1);
-            if (!text.starts_with("v(") || close == std::string_view::npos || equals == std::string_view::npos || text[equals] != '=')
-                return error_at(s.location(k), "expected v(node)=value, not '{}'", text);
-            auto from = text.find_first_not_of(" \t", equals + 1);
-            const auto value = TRY(scope.evaluate(without_braces(s, s.words[k], static_cast<std::uint32_t>(std::min(from, text.size())))));
-            const auto node = trimmed(text.substr(2, close - 2));
-            if (is_ground(node)) return error_at(s.location(k), "ground is always at 0 V");
-            node_voltages_.push_back({builder_.node_name(scope, node), value, s.location(k), s.text(0) == ".ic"});
-        }
-        return {};
-    }
-    Result<void> resolve_node_voltages() {
-        Circuit& c = builder_.circuit;
-        for (const auto& voltage : node_voltages_) {
-            int k = c.find_node(voltage.node);
-            if (k < 0) {
-                const auto name = with_dots(voltage.node);
-                const auto port = ports_in_ic_.find(name);
-                k = port != ports_in_ic_.end() && port->second >= 0 ? port->second : c.find_node(name);
-            }
-            if (k < 0) {
-                const auto suggestion = did_you_mean(voltage.node, c.nodes | std::views::drop(1));
-                if (!suggestion.empty()) return error_at(voltage.location, "unknown node '{}'{}", voltage.node, suggestion);
-                c.warnings.push_back(error_at(voltage.location, "there is no node '{}', so its voltage has no effect", voltage.node));
-                continue;
-            }
-            (voltage.is_ic ? c.ic : c.nodesets).emplace_back(k, voltage.value);
-        }
-        return {};
-    }
-
-    // ---- directives ----
-
-    void add_directive(const Statement& s) {
-        Directive out{std::string(s.text(0).substr(1)), {}, {}, s.line.location()};
-        if (s.analysis) out.analysis_location = s.analysis->line.location();
-        for (std::size_t k = 1; k < s.words.size(); ++k) {
-            out.words.push_back(without_blanks(s, s.words[k]));
-            out.columns.push_back(static_cast<int>(s.location(k).column));
-        }
-        builder_.circuit.directives.push_back(std::move(out));
-    }
-
-    /// Applies the overrides that concern directives. .expect holds only for the netlist as written, so overrides of values remove it.
-    void apply_overrides_to_directives(Circuit& c) const {
-        const auto& overrides = builder_.overrides;
-        const auto expectation =
-            std::find_if(c.directives.begin(), c.directives.end(), [](const Directive& directive) { return directive.name == "expect"; });
-        if (changes_values_ && expectation != c.directives.end()) {
-            c.warnings.push_back(error_at(expectation->location, "values of the netlist are overridden, so .expect is ignored"));
-            std::erase_if(c.directives, [](const Directive& directive) { return directive.name == "expect"; });
-        }
-        std::erase_if(c.directives, [&](const Directive& directive) {
-            return (overrides.replaces_saved && (directive.name == "save" || directive.name == "probe")) ||
-                   (overrides.mismatch_seed && directive.name == "mc");
-        });
-        if (!overrides.saved.empty()) c.directives.push_back({"save", overrides.saved, {}, {c.file}});
-    }
-
-    /// The word without blanks outside quotes and braces. Expressions that depend only on parameters are replaced by their values.
-    std::string without_blanks(const Statement& s, const Word& w) const {
-        std::string out;
-        const auto text = s.text(w);
-        for (std::size_t k = 0; k < text.size(); ++k) {
-            const char c = text[k];
-            if (c != '{' && c != '\'' && c != '"') {
-                if (c != ' ' && c != '\t') out += c;
-                continue;
-            }
-            const auto end = group_end(text, k);
-            out += evaluated(s, w, k, end);
-            k = end - 1;
-        }
-        return out;
-    }
-    /// The offset after the quotes or braces that open at `from`.
-    static std::size_t group_end(std::string_view text, std::size_t from) {
-        if (text[from] != '{') return std::min(text.find(text[from], from + 1), text.size() - 1) + 1;
-        int depth = 0;
-        for (std::size_t k = from; k < text.size(); ++k) {
-            depth += text[k] == '{' ? 1 : text[k] == '}' ? -1 : 0;
-            if (depth == 0) return k + 1;
-        }
-        return text.size();
-    }
-    /// The value, as text, of the expression in braces or quotes from offset `from` to `end` of a word. The original text if it is in
-    /// double quotes or cannot be evaluated.
-    std::string evaluated(const Statement& s, const Word& w, std::size_t from, std::size_t end) const {
-        const std::string original(s.text(w).substr(from, end - from));
-        if (original[0] == '"' || original.size() < 3) return original;
-        const Word inside{Word::Kind::expression, static_cast<std::uint32_t>(w.at + from + 1), static_cast<std::uint32_t>(end - from - 2)};
-        const auto value = top_.evaluate({&s, inside});
-        return value ? fmt::format("{:.17g}", *value) : original;
     }
 };
 

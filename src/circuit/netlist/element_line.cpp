@@ -51,25 +51,6 @@ Result<std::optional<Statement>> split_element_line(LogicalLine line, Refusals& 
     return std::optional(std::move(read));
 }
 
-bool is_spectre(std::string_view line) {
-    const auto end = std::min(line.find_first_of(" \t"), line.size());
-    const auto word = line.substr(0, end), rest = line.substr(end);
-    if (word == "simulator") return rest.find("spectre") != std::string_view::npos;
-    return (word == "parameters" && rest.find('=') != std::string_view::npos) ||
-           ((word == "simulatoroptions" || word == "saveoptions") && trimmed(rest).starts_with("options"));
-}
-
-bool is_row_of_numbers(std::string_view line) {
-    std::size_t numbers = 0;
-    for (std::size_t at = line.find_first_not_of(" \t,;"); at != std::string_view::npos; ++numbers) {
-        const auto end = std::min(line.find_first_of(" \t,;", at), line.size());
-        const auto number = parse_number(line.substr(at, end - at));
-        if (!number || !number->suffix.empty()) return false;
-        at = line.find_first_not_of(" \t,;", end);
-    }
-    return numbers >= 2;
-}
-
 bool looks_like_statement(std::string_view title) {
     std::vector<std::string> words;
     for (std::size_t at = title.find_first_not_of(" \t"); at != std::string_view::npos && words.size() < 5;) {

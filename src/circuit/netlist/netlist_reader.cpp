@@ -5,14 +5,16 @@
 #include "circuit/netlist/dialects.hpp"
 #include "circuit/netlist/element_line.hpp"
 #include "circuit/netlist/included_files.hpp"
+#include "circuit/netlist/open_conditions.hpp"
 #include "circuit/netlist/scope.hpp"
 #include "circuit/netlist/script/control_script.hpp"
+#include "circuit/netlist/script/repeated_analyses.hpp"
 #include "core/text/ascii_text.hpp"
 
 namespace corpuscle::circuit {
 namespace {
 
-constexpr std::size_t max_definition_depth = 200, max_condition_depth = 200;  // of nested .subckt and .if
+constexpr std::size_t max_definition_depth = 200;  // of nested .subckt
 
 class NetlistReader {
     ParsedNetlist& out_;
@@ -22,15 +24,9 @@ class NetlistReader {
     SubcktDef* file_body_;  // the definition that was being read when the present file began; .ends in this file must not close it
     std::size_t subcircuit_depth_ = 0;               // number of .subckt lines that are not yet closed
     std::vector<const Statement*> script_analyses_;  // of .control
-    struct OpenIf {
-        int outer, branch;  // indices in SubcktDef::conditions; -1: none
-        bool has_else;
-        SourceLocation location;
-    };
-    std::vector<OpenIf> open_ifs_;      // outermost first
-    std::size_t file_ifs_ = 0;          // number of those that were open when the present file began
-    bool are_scripts_stopped_ = false;  // one of them ended early
-    bool ended_ = false;                // true after .end, until the present file is left
+    OpenConditions conditions_;                      // those of .if around the present line
+    bool are_scripts_stopped_ = false;               // one of them ended early
+    bool ended_ = false;                             // true after .end, until the present file is left
 
 public:
     NetlistReader(ParsedNetlist& out, Refusals& refusals, const Netlist::FileOpener& open, std::string corner)
@@ -40,7 +36,7 @@ public:
     /// clear is added to the refusals; any other one is returned.
     Result<void> read_all(std::string_view text, const std::string& path) {
         TRY(read(text, {path, ""}));
-        remove_repeated_analyses();
+        remove_repeated_analyses(out_, script_analyses_);
         define_stepped_parameters();
         warn_about_dialect(out_);
         return files_.check_corner(path);
@@ -60,21 +56,6 @@ private:
     };
     static std::span<const Row> rows();
 
-    /// Directives of other simulators that change what is simulated, with the remedy.
-    static const std::map<std::string, std::string_view, std::less<>>& missing_directives() {
-        static const std::map<std::string, std::string_view, std::less<>> all = {
-            {".data", "; write .step param NAME list VALUE ..."},
-            {".machine", ""},
-            {".hb", "; a .tran of many periods with .four gives the harmonics"},
-            {".pss", "; a .tran of many periods with .four gives the harmonics"},
-            {".fft", "; use .four FREQUENCY CURVE"},
-            {".disto", "; use .four FREQUENCY CURVE"},
-            {".sp", "; use .ac"},
-            {".stimulus", "; write the waveform in the line of the source"},
-            {".connect", "; use one name for both nodes, or a 0 V source"},
-            {".sampling", "; use .mc COUNT"}};
-        return all;
-    }
     static const Row* find_row(std::string_view name) {
         static const Row of_analysis{"", &NetlistReader::output, Place::top_level};
         const auto all = rows();
@@ -97,10 +78,10 @@ private:
         if (files_.is_main()) TRY(take_title(lines));
         if (!source.section.empty()) out_.libraries.insert(source.path);
         SubcktDef* const outer_body = std::exchange(file_body_, body_);
-        const auto outer_ifs = open_ifs_.size(), previous_ifs = std::exchange(file_ifs_, outer_ifs);
+        const auto outer_conditions = conditions_.enter_file();
         auto ok = source.section.empty() ? statements(lines) : section(lines, source);
-        if (ok && open_ifs_.size() > outer_ifs) ok = error_at(open_ifs_.back().location, ".if is not closed by .endif");
-        file_ifs_ = previous_ifs;
+        if (ok) ok = conditions_.check_closed();
+        conditions_.leave_file(outer_conditions);
         if (ok && body_ != file_body_) ok = error_at(body_->head->location(0), ".subckt {} is not closed by .ends", body_->name);
         file_body_ = outer_body;
         files_.leave();
@@ -111,9 +92,7 @@ private:
     Result<void> take_title(LogicalLineReader& lines) {
         auto title = TRY(lines.title());
         out_.title = std::string(trimmed(title));
-        // Other lines of Spectre, and rows of numbers, may be titles.
-        if (const auto title_in_small = lower(out_.title); begins_with_word(title_in_small, "simulator") && is_spectre(title_in_small))
-            return refuse_other_language({title_in_small, {{0, 1, 1}}, std::make_shared<const std::string>(out_.file), {}});
+        TRY(refuse_title_of_other_language(out_));
         if (looks_like_statement(out_.title))
             out_.warnings.push_back(error_at({out_.file, 1, 1}, "the first line is the title, so '{}' is not read as a statement",
                                              std::string_view(out_.title).substr(0, 40)));
@@ -150,15 +129,15 @@ private:
     Result<void> statement(LogicalLineReader& lines, LogicalLine line) {
         if (out_.statements.size() >= max_elements) return too_many_statements(line.location());
         if (line.text[0] != '.') {
-            TRY(refuse_other_language(line));
-            if (begins_with_word(line.text, "simulator")) return without_effect_here(lines, std::move(line));
+            TRY(refuse_other_language(line, out_.title));
+            if (is_simulator_line(line.text)) return without_effect_here(lines, std::move(line));
             warn_about_drawing_notes(line);
             return keep(element(std::move(line)));
         }
         const std::string word = lower(std::string_view(line.text).substr(0, line.text.find_first_of(" \t('\"{")));
         const auto* row = find_row(word);
         if (row == nullptr) return keep(unknown(word, line.location()), Refusals::Kind::directive);
-        if (!open_ifs_.empty() && (row->place == Place::not_in_if || row->place == Place::top_level_not_in_if))
+        if (conditions_.is_open() && (row->place == Place::not_in_if || row->place == Place::top_level_not_in_if))
             return error_at(line.location(), "{} is not allowed inside .if; move it outside{}", word,
                             row->read == &NetlistReader::parameters ? ", and write .param x={condition ? a : b}" : "");
         if ((row->place == Place::top_level || row->place == Place::top_level_not_in_if) && body_->head)
@@ -169,24 +148,6 @@ private:
         return keep(std::move(ok), is_missing ? Refusals::Kind::directive : Refusals::Kind::other);
     }
 
-    static bool begins_with_word(std::string_view text, std::string_view word) {
-        return text.starts_with(word) && (text.size() == word.size() || text[word.size()] == ' ' || text[word.size()] == '\t');
-    }
-    /// Returns an error if a line shows that the file is not a netlist of SPICE.
-    Result<void> refuse_other_language(const LogicalLine& line) {
-        if (is_spectre(line.text))
-            return error_at(line.location(),
-                            "'{}' is in the language of Spectre, which is not read; write the netlist in that of SPICE: in Virtuoso, with "
-                            "the simulator hspiceD, or as CDL",
-                            std::string_view(line.text).substr(0, 40));
-        const bool begins_with_number = line.text.find_first_of("+-.0123456789") == 0;  // "0.1;2": the rest is a comment
-        if (is_row_of_numbers(line.text) || (begins_with_number && is_row_of_numbers(lower(out_.title))))
-            return error_at(line.location(),
-                            "'{}' is a line of a recording and not of a netlist; give a recording as the force, and the "
-                            "netlist as the afferent: corpuscle respond touch.csv --afferent own.cir",
-                            std::string_view(line.text).substr(0, 40));
-        return {};
-    }
     /// Warns once that notes such as $X=100 have no effect.
     void warn_about_drawing_notes(const LogicalLine& line) {
         if (line.drawing_note.empty() || !out_.marks.insert("$").second) return;
@@ -200,7 +161,7 @@ private:
         if (!ok) present_refusals().add(ok.error(), kind);
         return {};
     }
-    Refusals& present_refusals() { return present_condition() < 0 ? refusals_ : body_->branch_refusals[present_condition()]; }
+    Refusals& present_refusals() { return conditions_.is_open() ? body_->branch_refusals[conditions_.branch()] : refusals_; }
 
     static Error unknown(std::string_view word, SourceLocation location) {
         for (const auto& [old_name, new_name] : renamed_directives)
@@ -209,7 +170,7 @@ private:
     }
 
     Statement& store(Statement s) {
-        s.condition = present_condition();
+        s.condition = conditions_.branch();
         return out_.statements.emplace_back(std::move(s));
     }
 
@@ -240,7 +201,7 @@ private:
     }
     Result<void> missing(LogicalLineReader&, LogicalLine line) {
         const auto word = line.text.substr(0, line.text.find_first_of(" \t('\"{"));
-        return error_at(line.location(), "{} is not supported{}", word, missing_directives().find(word)->second);
+        return error_at(line.location(), "{} is not supported{}", word, remedy_for_missing(word));
     }
     /// Refuses a block of lines that are data or a program, and skips it.
     Result<void> missing_block(LogicalLineReader& lines, LogicalLine line) {
@@ -252,7 +213,7 @@ private:
             if (!more) return error_at(from, "{} is not closed by {}", word, end);
             if (lower(std::string_view(line.text).substr(0, end.size())) == end) break;
         }
-        return error_at(from, "{} is not supported{}", word, missing_directives().find(word)->second);
+        return error_at(from, "{} is not supported{}", word, remedy_for_missing(word));
     }
     /// .alter of HSPICE begins the changes for another run.
     Result<void> alter(LogicalLineReader&, LogicalLine line) {
@@ -295,72 +256,12 @@ private:
     }
     Result<void> model(LogicalLineReader&, LogicalLine line) {
         auto read = TRY(split_element(std::move(line), nullptr));
-        read.condition = present_condition();
+        read.condition = conditions_.branch();
         return read_model(std::move(read), *body_, out_);
     }
 
-    // ---- .if ----
-
-    int present_condition() const { return open_ifs_.empty() ? -1 : open_ifs_.back().branch; }
-
-    Result<void> if_line(LogicalLineReader&, LogicalLine line) {
-        if (open_ifs_.size() >= max_condition_depth)
-            return error_at(line.location(), ".if is nested deeper than the limit of {}", max_condition_depth);
-        const int outer = present_condition();
-        open_ifs_.push_back({outer, -1, false, line.location()});
-        return begin_branch(std::move(line), ".if", -1);
-    }
-    Result<void> elseif_line(LogicalLineReader&, LogicalLine line) { return next_branch(std::move(line), ".elseif"); }
-    Result<void> else_line(LogicalLineReader&, LogicalLine line) { return next_branch(std::move(line), ".else"); }
-    Result<void> endif_line(LogicalLineReader&, LogicalLine line) {
-        if (open_ifs_.size() <= file_ifs_) return error_at(line.location(), ".endif without .if");
-        open_ifs_.pop_back();
-        return {};
-    }
-    Result<void> next_branch(LogicalLine line, std::string_view word) {
-        if (open_ifs_.size() <= file_ifs_) return error_at(line.location(), "{} without .if", word);
-        if (open_ifs_.back().has_else) return error_at(line.location(), "{} after .else", word);
-        return begin_branch(std::move(line), word, open_ifs_.back().branch);
-    }
-    /// Writes == for each single = of a condition; ngspice accepts both.
-    static void double_equals(LogicalLine& line) {
-        constexpr std::size_t longest = 10000;  // characters; the time grows with the square of the length
-        if (line.text.size() > longest) return;
-        for (std::size_t k = 1; k + 1 < line.text.size(); ++k) {
-            constexpr std::string_view operators = "=<>!";
-            const auto is_operator = [&](std::size_t n) { return operators.find(line.text[n]) != std::string_view::npos; };
-            if (line.text[k] != '=' || is_operator(k - 1) || is_operator(k + 1)) continue;
-            const auto after = line.location(k + 1);
-            line.text.insert(k, 1, '=');
-            for (auto& segment : line.segments)
-                if (segment.at > k) ++segment.at;
-            const auto next = std::ranges::upper_bound(line.segments, k + 2, {}, &LogicalLine::Segment::at);
-            line.segments.insert(next, {static_cast<std::uint32_t>(k + 2), static_cast<std::uint32_t>(after.line),
-                                        static_cast<std::uint32_t>(after.column)});
-            ++k;
-        }
-    }
-
-    /// Begins the branch of an .if line, or the one after `previous`.
-    Result<void> begin_branch(LogicalLine line, std::string_view word, int previous) {
-        auto& open = open_ifs_.back();
-        Condition condition{open.outer, previous};
-        const auto from = std::min(line.text.find_first_not_of(" \t", word.size()), line.text.size());
-        if (word == ".else") {
-            open.has_else = true;
-        } else {
-            double_equals(line);
-            if (from == line.text.size()) return error_at(line.location(from), "{}: expected a condition, such as {} (x > 1)", word, word);
-        }
-        const Statement& s = out_.statements.emplace_back(Statement{std::move(line), {}, {}});
-        condition.line = &s;
-        if (word != ".else")
-            condition.text = WordRef{
-                &s, {Word::Kind::expression, static_cast<std::uint32_t>(from), static_cast<std::uint32_t>(s.line.text.size() - from)}};
-        body_->conditions.push_back(std::move(condition));
-        open.branch = static_cast<int>(body_->conditions.size()) - 1;
-        return {};
-    }
+    Result<void> branch(LogicalLineReader&, LogicalLine line) { return conditions_.begin_branch(std::move(line), *body_, out_.statements); }
+    Result<void> endif_line(LogicalLineReader&, LogicalLine line) { return conditions_.end(line.location()); }
 
     /// Reads a .subckt line. The following lines belong to its body until .ends.
     Result<void> subcircuit(LogicalLineReader&, LogicalLine line) {
@@ -459,29 +360,6 @@ private:
             if (uses_name(out_.top, name) || is_used_by_directive(name)) out_.top.parameters.emplace(name, WordRef{s, s->words[first]});
         }
     }
-
-    /// Removes each analysis of a script that the netlist also has as a directive. The prints and measures of the script then belong to the
-    /// directive.
-    void remove_repeated_analyses() {
-        if (script_analyses_.empty()) return;
-        // Directives outside of scripts that do not depend on a condition, by their words.
-        std::map<std::vector<std::string_view>, const Statement*> directives;
-        const auto words_of = [](const Statement& s) {
-            std::vector<std::string_view> out;
-            for (std::size_t k = 0; k < s.words.size(); ++k) out.push_back(s.text(k));
-            return out;
-        };
-        const std::set<const Statement*> scripts(script_analyses_.begin(), script_analyses_.end());
-        for (const auto* s : out_.directives)
-            if (!scripts.contains(s) && s->condition < 0) directives.try_emplace(words_of(*s), s);
-        const auto repeated = [&](const Statement* s) {
-            const auto at = scripts.contains(s) ? directives.find(words_of(*s)) : directives.end();
-            return at == directives.end() ? nullptr : at->second;
-        };
-        for (auto& s : out_.statements)
-            if (const auto* directive = s.analysis ? repeated(s.analysis) : nullptr) s.analysis = directive;
-        std::erase_if(out_.directives, [&](const Statement* s) { return repeated(s) != nullptr; });
-    }
 };
 
 /// All directives but those of the analyses.
@@ -512,9 +390,9 @@ std::span<const NetlistReader::Row> NetlistReader::rows() {
         {".opt", &R::options, top_not_in_if},
         {".set", &R::set_values, top_not_in_if},
         {".title", &R::title, top_not_in_if},
-        {".if", &R::if_line, Place::anywhere, AfterError::ends},
-        {".elseif", &R::elseif_line, Place::anywhere, AfterError::ends},
-        {".else", &R::else_line, Place::anywhere, AfterError::ends},
+        {".if", &R::branch, Place::anywhere, AfterError::ends},
+        {".elseif", &R::branch, Place::anywhere, AfterError::ends},
+        {".else", &R::branch, Place::anywhere, AfterError::ends},
         {".endif", &R::endif_line, Place::anywhere, AfterError::ends},
         // These become Circuit::directives, as those of the analyses do.
         {".meas", &R::output, top},

@@ -9,7 +9,6 @@
 namespace corpuscle::circuit {
 namespace {
 
-constexpr int max_suggestions = 20;     // number of nodes for which similar names are searched; a search compares all nodes
 constexpr double max_gate_size = 1e-3;  // m; a larger w or l was probably meant in micrometres
 
 /// One warning for all elements for which holds() is true, located at the first of them. Its text is message(first element).
@@ -41,11 +40,11 @@ void warn_about_dangling_nodes(std::vector<Error>& out, const Circuit& c) {
     std::vector<std::string_view> connected;  // nodes with more than one terminal, as suggestions
     for (std::size_t n = 1; n < c.nodes.size(); ++n)
         if (terminals[n] > 1) connected.push_back(c.nodes[n]);
-    int suggestions = 0;
+    Suggestions similar_nodes;
     for (std::size_t n = 1; n < c.nodes.size(); ++n)
         if (terminals[n] == 1 && c.nodes[n].find('.') == std::string::npos)  // not inside a subcircuit
             out.push_back(error_at(element[n]->location, "node '{}' is connected only to {}{}", c.nodes[n], element[n]->name,
-                                   suggestions++ < max_suggestions ? did_you_mean(c.nodes[n], connected) : ""));
+                                   similar_nodes.for_name(c.nodes[n], [&] { return std::span(connected); })));
 }
 
 bool is_transistor(const Element& e) { return e.letter == 'm'; }

@@ -64,14 +64,19 @@ std::string alternatives(std::span<const std::string_view> words) {
     return out;
 }
 
-Error unknown_model(const Scope& scope, const WordRef& name, std::string_view user) {
+std::vector<std::string_view> known_models(const Scope& scope) {
     std::vector<std::string_view> known;
     for (const Scope* f = &scope; f; f = f->enclosing)
         for (const auto& [model, statement] : f->definition->models) known.push_back(model);
+    return known;
+}
+
+Error unknown_model(const Scope& scope, const WordRef& name, std::string_view user, Suggestions& similar_models) {
     constexpr std::string_view units[] = {"f",   "h",  "v",  "a",  "pf", "nf", "uf", "ohm", "k", "kohm",
                                           "meg", "mh", "uh", "nh", "fF", "p",  "n",  "u",   "m"};
     const bool is_unit = std::find(std::begin(units), std::end(units), name.view()) != std::end(units);
-    const auto hint = is_unit ? "; write a unit directly after its number, without a blank" : did_you_mean(name.view(), known);
+    const auto hint = is_unit ? "; write a unit directly after its number, without a blank"
+                              : similar_models.for_name(name.view(), [&] { return known_models(scope); });
     return error_at(name.location(), "{}: unknown model '{}'{}", user, name.view(), hint);
 }
 
@@ -288,7 +293,7 @@ static bool is_rating(std::string_view name) {
 Result<int> CircuitBuilder::find_or_add_model(Scope& scope, const WordRef& name, std::string_view user,
                                               std::span<const std::string_view> types) {
     Scope* f = scope.definer_of_model(name.view());
-    if (!f) return unknown_model(scope, name, user);
+    if (!f) return unknown_model(scope, name, user, similar_models_);
     const Statement& s = *f->own_model(name.view());
     const auto type = short_type(s.text(2));
     if (std::find(types.begin(), types.end(), type) == types.end())

@@ -75,6 +75,7 @@ class CircuitBuilder {
     std::size_t statement_count_ = 0, name_bytes_ = 0;  // elaborated statements; estimated memory of all names
     bool is_limit_exceeded_ = false;
     std::set<std::string> warned_;  // texts of the warnings of warn_once()
+    Suggestions similar_models_;
 
 public:
     Circuit circuit;
