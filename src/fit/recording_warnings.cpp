@@ -51,7 +51,7 @@ std::vector<std::string> recording_warnings(std::span<const SpikeRecording> reco
             out.push_back(fmt::format("{}{} of {} spikes ({}) lie outside the time of {}, {}, and are not used{}", file_text(r),
                                       count.all - count.used, count.all, range_text(count.first, count.last), r.name,
                                       range_text(r.clock.t0, r.end()), delay_text(r)));
-        if (auto warning = rate_warning(plan, r.name, r.clock.rate()); !warning.empty()) out.push_back(std::move(warning));
+        if (auto warning = source_rate_warning(plan, r.name, r.clock.rate()); !warning.empty()) out.push_back(std::move(warning));
     }
     if (used < few_spikes)
         out.push_back(fmt::format("only {} spikes can be used; with fewer than {} values and intervals are rough", used, few_spikes));

@@ -1,7 +1,5 @@
 #include "page/documents.hpp"
 
-#include <fmt/format.h>
-
 #include "run/catalogue/catalogue_document.hpp"
 #include "run/compare/implementation_comparison.hpp"
 
@@ -46,10 +44,6 @@ Json document_of(std::span<const SettableValue> values) {
         out.push_back(std::move(row));
     }
     return out;
-}
-
-void add_rate_warning(Json& warnings, const AfferentPlan& plan, double rate) {
-    if (rate < plan.min_rate) warnings.push_back(fmt::format("{} needs a sampling rate of at least {:g} Hz", plan.name, plan.min_rate));
 }
 
 Json parameters_document(const AfferentPlan& plan) {

@@ -15,8 +15,6 @@ Json document_of(std::span<const Probe>);       ///< [{"name", "unit"}]
 Json document_of(std::span<const ValidRange>);  ///< [{"quantity", "unit", "low", "high", "meaning"}]
 Json document_of(std::span<const Phase>);       ///< [{"name", "from", "to"}]
 Json document_of(std::span<const SettableValue>);
-/// Adds a sentence if this sampling rate (Hz) is too low for the afferent.
-void add_rate_warning(Json& warnings, const AfferentPlan&, double rate);
 /// The rows of a plan's parameters, as in the catalogue, with "value".
 Json parameters_document(const AfferentPlan&);
 

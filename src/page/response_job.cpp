@@ -1,6 +1,7 @@
 #include "page/response_job.hpp"
 
 #include <fmt/format.h>
+#include <algorithm>
 #include <chrono>
 #include <cmath>
 
@@ -8,6 +9,8 @@
 #include "page/documents.hpp"
 #include "run/channels/channel_warnings.hpp"
 #include "run/channels/sensor_noise.hpp"
+#include "run/firing_factor.hpp"
+#include "run/summary/silence_notes.hpp"
 
 namespace corpuscle::page {
 namespace {
@@ -143,7 +146,7 @@ std::vector<std::string> ResponseJob::warnings() const {
     std::vector<NoiseSubject> subjects;
     RunStats stats;
     for (std::size_t p = 0; p < plans_.size(); ++p) {
-        if (auto text = rate_warning(plans_[p], force_.source, force_.clock.rate()); !text.empty()) out.push_back(std::move(text));
+        if (auto text = source_rate_warning(plans_[p], force_.source, force_.clock.rate()); !text.empty()) out.push_back(std::move(text));
         subjects.push_back({plans_[p].name, &plans_[p]});
         const auto& response = responses_[p];
         stats.truncated_steps += response.truncated_steps, stats.saturated += response.saturated, stats.overflowed += response.overflowed;
@@ -159,6 +162,22 @@ std::vector<std::string> ResponseJob::warnings() const {
         for (std::size_t phase = 0; phase < std::max<std::size_t>(1, force_.phases.size()); ++phase)
             rate = std::max(rate, highest_rate(measures_.values(p, phase), T));  // NaN, of fewer than two spikes, is not greater
         if (auto text = channel_rate_warning(rate, T, plans_[p], force_.channel); !text.empty()) out.push_back(std::move(text));
+    }
+    return out;
+}
+
+/// The notes that `corpuscle respond` prints about afferents that never fired.
+std::vector<std::string> ResponseJob::silence_notes() const {
+    std::vector<std::string> out;
+    const std::span<const double> force = *force_.values;
+    const double largest = force.empty() ? 0 : std::max(0.0, *std::max_element(force.begin(), force.end()));
+    auto options = options_;
+    options.noise = 0;
+    for (std::size_t p = 0; p < plans_.size(); ++p) {
+        if (responses_[p].spikes > 0 || !responses_[p].error.empty() || !plans_[p].traits().can_search_factor) continue;
+        SilentClass silent{p, largest, {}};
+        if (largest > 0) silent.factor = factor_to_fire(plans_[p], options, force.first(std::min(force.size(), max_silence_samples)));
+        out.push_back(silence_note(plans_[p], silent));
     }
     return out;
 }
@@ -181,6 +200,7 @@ void ResponseJob::add_end(MessageWriter& answer) const {
     answer.head["rows"] = std::move(rows);
     if (is_monte_carlo_) answer.head["ranges"] = responses_.front().ranges;
     answer.head["warnings"] = is_monte_carlo_ ? std::vector<std::string>() : warnings();
+    answer.head["notes"] = is_monte_carlo_ ? std::vector<std::string>() : silence_notes();
     if (force_.is_known) return;
     std::vector<float> force;
     for (std::size_t k = 0; k < force_.values->size(); k += std::max<std::size_t>(1, every_))

@@ -41,6 +41,7 @@ class ResponseJob {
     void end_plan();
     void simulate_block(const std::atomic<bool>& is_stopped);
     std::vector<std::string> warnings() const;
+    std::vector<std::string> silence_notes() const;
     void add_end(MessageWriter& answer) const;
 
 public:

@@ -6,6 +6,7 @@
 #include "io/sandbox/helper_process.hpp"
 #include "page/documents.hpp"
 #include "page/save/saved_spikes.hpp"
+#include "run/channels/channel_warnings.hpp"
 
 namespace corpuscle::page {
 namespace {
@@ -64,7 +65,9 @@ Result<Session> Session::start(ObjectReader& request, MessageWriter& answer) {
         units += out.skin_->afferents();
         for (const auto& warning : out.skin_->warnings()) answer.head["warnings"].push_back(warning);
     }
-    for (const auto& row : out.rows_) add_rate_warning(answer.head["warnings"], row.plan(), out.clock_.rate());
+    for (const auto& row : out.rows_)
+        if (auto text = rate_warning(row.plan(), row.plan().name, out.clock_.rate()); !text.empty())
+            answer.head["warnings"].push_back(std::move(text));
     answer.head["units"] = units;
     answer.head["formats"] = {"csv"};
     if (find_helper_program("corpuscle-hdf5")) answer.head["formats"].push_back("nwb");

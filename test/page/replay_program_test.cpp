@@ -11,10 +11,11 @@ namespace {
 
 using test::run_program, test::TemporaryFolder;
 
-/// Each warning of a replay is one that the program prints.
+/// Each warning and each note of a replay is one that the program prints.
 void expect_printed(const Replay& replay, const std::string& printed) {
-    for (const auto& warning : replay.respond["warnings"])
-        EXPECT_NE(printed.find(warning.get<std::string>()), std::string::npos) << warning << "\n" << printed;
+    for (const char* kind : {"warnings", "notes"})
+        for (const auto& text : replay.respond[kind])
+            EXPECT_NE(printed.find(text.get<std::string>()), std::string::npos) << text << "\n" << printed;
 }
 
 TEST(ReplayProgram, AReplayWarnsOfTheNoiseOfTheSensorAsTheProgramDoes) {
@@ -42,6 +43,18 @@ TEST(ReplayProgram, AReplayWarnsOfTruncatedStepsAndUnresolvedRatesAsTheProgramDo
         return out;
     };
     for (const char* part : {"truncated", "several spikes"}) EXPECT_EQ(count(replay.warnings(), part), count(printed, part)) << part;
+}
+
+TEST(ReplayProgram, AReplayNamesAfferentsThatNeverFiredAsTheProgramDoes) {
+    const TemporaryFolder folder;
+    const auto text = recording(1000, 1000, 0, [](std::size_t k) { return k > 200 && k < 700 ? 2e-3 : 0.0; });
+    folder.write("weak.csv", text);
+    const auto replay = Replay::of("weak.csv", text, R"({"afferent": "sa1"}, {"afferent": "fa1"})");
+    ASSERT_EQ(replay.respond["notes"].size(), 2U) << replay.respond["notes"];
+    const auto note = replay.respond["notes"][0].get<std::string>();
+    EXPECT_EQ(note.find("sa1 never fired: the largest force was 0.002 N; it would fire at about "), 0U) << note;
+    EXPECT_NE(note.find("; try sa1-nerve"), std::string::npos) << note;
+    expect_printed(replay, run_program(folder, "respond weak.csv --afferent sa1,fa1").err);
 }
 
 TEST(ReplayProgram, AReplayHasTheTimesOfTheRecording) {

@@ -117,10 +117,10 @@ export class Recording {
     }
 
     private show({head, arrays}: Answer, {name, channel}: Force, trains: LiveTrain[], colours: string[]) {
-        const {rate, t0, samples, phases = [], warnings} = head, names: string[] = head.rows.map((row: {name: string}) => row.name);
+        const {rate, t0, samples, phases = [], warnings, notes} = head, messages: string[] = [...warnings, ...notes], names: string[] = head.rows.map((row: {name: string}) => row.name);
         const host = h("div", {class: "figures"}), curve = new LiveCurve("force", "N", 1 / rate, null, t0, samples), clock = {t0, T: 1 / rate, samples};
         curve.append(arrays.force, t0);
-        append(this.replay, warnings.length ? h("ul", {class: "notes all"}, ...warnings.map((text: string) => h("li", {}, text))) : null,
+        append(this.replay, messages.length ? h("ul", {class: "notes all"}, ...messages.map((text) => h("li", {}, text))) : null,
             h("p", {}, h("button", {type: "button", id: "save-replay", title: "Save the spikes of this replay as CSV, as corpuscle respond --out writes them", onclick: () => download("spikes.csv", spikesText(names, channel, trains))}, "Save spikes of this replay")), host);
         const view = (window as any).corpuscle.replay = this.view = new View();
         view.setLimits({begin: t0, end: t0 + samples / rate, smallest: 4 / rate});

@@ -15,6 +15,7 @@
 #include "io/recording/force_rows.hpp"
 #include "live/live_population.hpp"
 #include "live/stream_state.hpp"
+#include "run/channels/channel_warnings.hpp"
 #include "run/channels/sensor_noise.hpp"
 #include "run/skin/skin_force.hpp"
 #include "skin/plan/sites.hpp"
@@ -223,9 +224,7 @@ class LiveRun {
         corpuscle::print_notes(input_name(args_.in), skin_notes_, common_.quiet);
         const double rate = skin_->clock().rate();
         for (const auto& c : skin_->innervation().plan.classes)
-            if (rate < c.afferent.min_rate * (1 - 1e-9))
-                warn(fmt::format("the frame rate is {:g} Hz, but {} needs {:g} Hz or more; its spikes are not reliable", rate, c.name,
-                                 c.afferent.min_rate));
+            if (const auto text = rate_warning(c.afferent, c.name, rate); !text.empty()) warn(text);
     }
 
     /// The warning about the noise of the sensor of a recording, if it is enough for spikes.

@@ -7,12 +7,6 @@
 namespace corpuscle {
 namespace {
 
-/// The field without blanks around it, and without double quotes around the rest.
-std::string_view unquoted(std::string_view s) {
-    s = trimmed(s);
-    return s.size() >= 2 && s.front() == '"' && s.back() == '"' ? s.substr(1, s.size() - 2) : s;
-}
-
 /// The position of the separator after the field that begins at `at`; npos for the last field. A separator within quotes does not end it.
 std::size_t end_of_field(std::string_view line, std::size_t at, char separator) {
     const auto quote = line.find_first_not_of(" \t", at);
@@ -27,6 +21,11 @@ std::size_t end_of_field(std::string_view line, std::size_t at, char separator) 
 
 }  // namespace
 
+std::string_view unquoted_field(std::string_view s) {
+    s = trimmed(s);
+    return s.size() >= 2 && s.front() == '"' && s.back() == '"' ? s.substr(1, s.size() - 2) : s;
+}
+
 Dialect Dialect::detect(std::string_view line) {
     for (const char c : {'\t', ';'})
         if (line.find(c) != std::string_view::npos) return {c, true};
@@ -38,14 +37,14 @@ void Dialect::split(std::string_view line, Fields& out) const {
     if (separator == ' ') {
         for (std::size_t at = line.find_first_not_of(" \t"); at != std::string_view::npos;) {
             const auto end = line.find_first_of(" \t", at);
-            out.push_back(unquoted(line.substr(at, end - at)));
+            out.push_back(unquoted_field(line.substr(at, end - at)));
             at = line.find_first_not_of(" \t", end);
         }
         return;
     }
     for (std::size_t at = 0;;) {
         const auto end = end_of_field(line, at, separator);
-        out.push_back(unquoted(line.substr(at, end - at)));
+        out.push_back(unquoted_field(line.substr(at, end - at)));
         if (end == std::string_view::npos) return;
         at = end + 1;
     }

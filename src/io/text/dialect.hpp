@@ -12,6 +12,9 @@ namespace corpuscle {
 /// The fields of one line, as views of it.
 using Fields = std::vector<std::string_view>;
 
+/// A field without blanks around it, and without double quotes around the rest.
+std::string_view unquoted_field(std::string_view);
+
 struct Dialect {
     char separator = ',';        ///< between fields; ' ' means any number of blanks or tabs
     bool decimal_comma = false;  ///< true: a comma in a number is read like a decimal point

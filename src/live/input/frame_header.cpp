@@ -8,10 +8,6 @@
 namespace corpuscle {
 namespace {
 
-std::string_view unquoted_name(std::string_view field) {
-    return field.size() >= 2 && field.front() == '"' && field.back() == '"' ? field.substr(1, field.size() - 2) : field;
-}
-
 /// True if the text begins with a number, which a separator may follow: "3", "0,5".
 bool begins_with_number(std::string_view text) { return number_in(next_field(text)).has_value(); }
 
@@ -44,7 +40,7 @@ std::vector<std::string> header_names(std::string_view line, std::size_t fields,
     auto names = split_header(line, fields);
     if (names.size() != fields) {  // other separators, such as a comma at the end
         names.clear();
-        for (auto rest = line; !rest.empty();) names.push_back(unquoted_name(next_field(rest)));
+        for (auto rest = line; !rest.empty();) names.push_back(unquoted_field(next_field(rest)));
     }
     const auto is_not_name = [](std::string_view name) { return name.empty() || begins_with_number(name); };
     if (names.size() != fields || std::any_of(names.begin(), names.end(), is_not_name)) return {};

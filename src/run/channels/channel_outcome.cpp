@@ -71,11 +71,7 @@ void ChannelOutcome::add_rate_warnings(double T) {
 
 std::vector<std::string> ChannelOutcome::silence_notes(std::span<const SilentClass> silent) const {
     std::vector<std::string> out;
-    for (const auto& s : silent) {
-        const auto& plan = afferents[s.class_index];
-        const auto advice = nerve_advice(plan);
-        out.push_back(silence_message(plan.name, s) + (advice.empty() ? "" : "; " + advice));
-    }
+    for (const auto& s : silent) out.push_back(silence_note(afferents[s.class_index], s));
     return out;
 }
 

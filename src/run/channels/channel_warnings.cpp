@@ -54,19 +54,23 @@ std::vector<std::string> response_warnings(const RunStats& stats) {
     return warnings;
 }
 
-std::string rate_warning(const AfferentPlan& plan, const std::string& source, double rate) {
-    if (!(rate < plan.min_rate)) return "";
+std::string rate_warning(const AfferentPlan& plan, const std::string& subject, double rate) {
+    if (!(rate < plan.min_rate * (1 - 1e-9))) return "";
     return fmt::format(
-        "{} on {}: the sample rate is {:g} Hz, but this afferent needs {:g} Hz or more: vibration above {:g} Hz is missing, and it "
+        "{}: the sample rate is {:g} Hz, but this afferent needs {:g} Hz or more: vibration above {:g} Hz is missing, and it "
         "responds to the slower part of the force only",
-        plan.name, source, rate, plan.min_rate, rate / 2);
+        subject, rate, plan.min_rate, rate / 2);
+}
+
+std::string source_rate_warning(const AfferentPlan& plan, const std::string& source, double rate) {
+    return rate_warning(plan, fmt::format("{} on {}", plan.name, source), rate);
 }
 
 std::vector<std::string> rate_warnings(std::span<const std::unique_ptr<ForceSource>> sources, std::span<const AfferentPlan> afferents) {
     std::vector<std::string> warnings;
     for (const auto& source : sources)
         for (const auto& a : afferents)
-            if (auto warning = rate_warning(a, source->name(), source->clock().rate()); !warning.empty())
+            if (auto warning = source_rate_warning(a, source->name(), source->clock().rate()); !warning.empty())
                 warnings.push_back(std::move(warning));
     return warnings;
 }

@@ -83,11 +83,7 @@ void SkinOutcome::add_force_notes(const ForceSource& source, const SkinScene& sc
 void SkinOutcome::add_response_warnings(const ForceSource& source) {
     const double rate = source.clock().rate();
     for (const auto& c : plan().classes)
-        if (rate < c.afferent.min_rate * (1 - 1e-9))
-            notes.warnings.push_back(
-                fmt::format("{}: the sampling rate of the force is {:g} Hz; {:g} Hz or more is needed: vibration above "
-                            "{:g} Hz is missing",
-                            c.name, rate, c.afferent.min_rate, rate / 2));
+        if (auto text = rate_warning(c.afferent, c.name, rate); !text.empty()) notes.warnings.push_back(std::move(text));
     std::vector<NoiseSubject> subjects;
     for (const auto& c : plan().classes) subjects.push_back({c.name, &c.afferent});
     if (auto text = sensor_noise_warning(source, subjects, options.for_clock(source.clock())); !text.empty())

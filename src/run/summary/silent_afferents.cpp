@@ -1,10 +1,8 @@
 #include "run/summary/silent_afferents.hpp"
 
-#include <fmt/format.h>
 #include <algorithm>
 #include <cmath>
 
-#include "model/catalog.hpp"
 #include "run/firing_factor.hpp"
 
 namespace corpuscle {
@@ -99,19 +97,6 @@ std::vector<SilentClass> SilenceDetector::silent_classes(const RespondOptions& o
         out.back().factor = factor_to_fire(silent_plans_[c], {dt_, options.method, options.sampled, 0, 0}, force);
     }
     return out;
-}
-
-std::string nerve_advice(const AfferentPlan& plan) {
-    const auto name = plan.name + "-nerve";
-    const auto calibrated = plan_afferent(name);
-    const bool is_other = calibrated && (calibrated->receptor != plan.receptor || calibrated->neuron != plan.neuron);
-    return is_other ? fmt::format("try {}, which is calibrated to recordings of nerves", name) : "";
-}
-
-std::string silence_message(const std::string& name, const SilentClass& silent) {
-    const auto never = fmt::format("{} never fired: the largest force was {:.3g} N", name, silent.max_force);
-    if (silent.factor) return fmt::format("{}; it would fire at about {} times this force", never, format_rounded_up(*silent.factor));
-    return silent.max_force > 0 ? fmt::format("{}, and even a million times this force would not make it fire", never) : never;
 }
 
 }  // namespace corpuscle

@@ -1,25 +1,13 @@
 #pragma once
-// Classes of afferents that never fired, and the factor by which the same force must be multiplied to make them fire.
+// Finds the classes of afferents that never fired.
 
-#include <optional>
 #include <span>
-#include <string>
 #include <vector>
 
 #include "run/run_inputs.hpp"
+#include "run/summary/silence_notes.hpp"
 
 namespace corpuscle {
-
-/// Largest number of force samples of an input, summed over the rows of RunBlock::force, that are kept for the search of the factor. Later
-/// samples are ignored.
-inline constexpr std::size_t max_silence_samples = std::size_t{1} << 18;
-
-/// A class of the population, none of whose afferents fired on any input.
-struct SilentClass {
-    std::size_t class_index = 0;   ///< see Population::class_of()
-    double max_force = 0;          ///< N, the largest force on any channel of any input; in a skin see SilenceDetector
-    std::optional<double> factor;  ///< see factor_to_fire(); for copies, of the first copy
-};
 
 /// Finds silent classes, and their factors for the row of RunBlock::force with the largest force of the run. Netlists are left out, because
 /// the search would take longer than the run. In a skin, the row is the total force, scaled to the largest force on an afferent of the
@@ -45,12 +33,5 @@ public:
     /// Valid after the run, also when its plans and forces are gone.
     std::vector<SilentClass> silent_classes(const RespondOptions&) const;
 };
-
-/// A text such as "try fa1-nerve, which is calibrated to recordings of nerves", if there is such an afferent and the plan is of
-/// another one; otherwise "".
-std::string nerve_advice(const AfferentPlan&);
-
-/// A message such as "fa1 never fired: the largest force was 0.5 N; it would fire at about 6.3 times this force". `name`: of the class.
-std::string silence_message(const std::string& name, const SilentClass&);
 
 }  // namespace corpuscle
