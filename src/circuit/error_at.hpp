@@ -1,9 +1,11 @@
 #pragma once
 
 #include <fmt/format.h>
-#include <map>
 #include <ranges>
 #include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
 
 #include "core/parameter.hpp"
 
@@ -23,21 +25,5 @@ std::string did_you_mean(std::string_view typed, Names&& names) {
     for (const auto& name : names) views.emplace_back(name);
     return corpuscle::did_you_mean(typed, views);
 }
-
-/// did_you_mean() for input with many unknown names. Each search compares all known names, so only the first names are searched for, each
-/// once: 100,000 unknown names among as many known ones would take many minutes.
-class Suggestions {
-    static constexpr std::size_t max_searches = 20;
-    std::map<std::string, std::string, std::less<>> found_;  // by the unknown name
-
-public:
-    /// The suggestion for a name. `known_names()` returns the names that it can be.
-    template <class KnownNames>
-    std::string for_name(std::string_view typed, KnownNames&& known_names) {
-        if (const auto at = found_.find(typed); at != found_.end()) return at->second;
-        if (found_.size() == max_searches) return "";
-        return found_[std::string(typed)] = did_you_mean(typed, known_names());
-    }
-};
 
 }  // namespace corpuscle::circuit

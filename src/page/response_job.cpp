@@ -72,7 +72,6 @@ void ResponseJob::begin_plan() {
     if (plan_ == 0 && !is_monte_carlo_) prepare_measures();
     afferent_ = make_afferent(plans_[plan_], options_);
     simulation_ = std::make_unique<AfferentSimulation>(*afferent_);
-    at_ = 0;
     auto& response = responses_.emplace_back();
     response.probe_names = document_of(afferent_->probes()), response.ranges = document_of(afferent_->ranges());
     response.probes.resize(every_ > 0 ? afferent_->probes().size() : 0);
@@ -85,7 +84,7 @@ void ResponseJob::end_plan() {
         if (const auto& violation = response.range_violations[r]; violation.samples > 0)
             response.range_warnings.push_back(range_warning(plans_[plan_].name, force_.channel, afferent_->ranges()[r], violation,
                                                             static_cast<std::int64_t>(force_.values->size()), force_.clock));
-    ++plan_, simulation_.reset(), afferent_.reset();
+    ++plan_, at_ = 0, simulation_.reset(), afferent_.reset();
 }
 
 /// Simulates the next block of the present afferent, or goes on to the next afferent.
@@ -123,14 +122,16 @@ Result<void> ResponseJob::run(double seconds, const std::atomic<bool>& is_stoppe
         return seconds == 0 || std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count() < seconds;
     };
     for (bool is_first = true; !is_done() && (is_first || has_time()); is_first = false) {  // at least one block, so that it ends
-        if (!is_stopped) simulate_block(is_stopped);
+        if (is_simulated())
+            search_factor();
+        else if (!is_stopped)
+            simulate_block(is_stopped);
         if (is_stopped) return stopped_error();
     }
     const auto samples = static_cast<double>(std::max<std::size_t>(1, force_.values->size()));
     answer.head["answer"] = name_;
     answer.head["done"] = is_done();
-    answer.head["progress"] =
-        (static_cast<double>(plan_) + (is_done() ? 0 : static_cast<double>(at_) / samples)) / static_cast<double>(plans_.size());
+    answer.head["progress"] = (static_cast<double>(plan_) + static_cast<double>(at_) / samples) / static_cast<double>(plans_.size());
     answer.head["samples"] = force_.values->size(), answer.head["rate"] = force_.clock.rate(), answer.head["t0"] = force_.clock.t0;
     answer.head["phases"] = document_of(force_.phases);
     if (is_monte_carlo_) answer.head["chips_done"] = plan_, answer.head["chips"] = plans_.size();
@@ -166,20 +167,15 @@ std::vector<std::string> ResponseJob::warnings() const {
     return out;
 }
 
-/// The notes that `corpuscle respond` prints about afferents that never fired.
-std::vector<std::string> ResponseJob::silence_notes() const {
-    std::vector<std::string> out;
+/// Adds the note that `corpuscle respond` prints if the next afferent never fired.
+void ResponseJob::search_factor() {
+    const auto p = searched_++;
+    if (responses_[p].spikes > 0 || !responses_[p].error.empty() || !plans_[p].traits().can_search_factor) return;
     const std::span<const double> force = *force_.values;
-    const double largest = force.empty() ? 0 : std::max(0.0, *std::max_element(force.begin(), force.end()));
-    auto options = options_;
-    options.noise = 0;
-    for (std::size_t p = 0; p < plans_.size(); ++p) {
-        if (responses_[p].spikes > 0 || !responses_[p].error.empty() || !plans_[p].traits().can_search_factor) continue;
-        SilentClass silent{p, largest, {}};
-        if (largest > 0) silent.factor = factor_to_fire(plans_[p], options, force.first(std::min(force.size(), max_silence_samples)));
-        out.push_back(silence_note(plans_[p], silent));
-    }
-    return out;
+    SilentClass silent{p, force.empty() ? 0 : std::max(0.0, *std::max_element(force.begin(), force.end())), {}};
+    if (silent.max_force > 0)  // options_ has no noise
+        silent.factor = factor_to_fire(plans_[p], options_, force.first(std::min(force.size(), max_silence_samples)));
+    silence_notes_.push_back(silence_note(plans_[p], silent));
 }
 
 /// The parts of the last answer.
@@ -200,7 +196,7 @@ void ResponseJob::add_end(MessageWriter& answer) const {
     answer.head["rows"] = std::move(rows);
     if (is_monte_carlo_) answer.head["ranges"] = responses_.front().ranges;
     answer.head["warnings"] = is_monte_carlo_ ? std::vector<std::string>() : warnings();
-    answer.head["notes"] = is_monte_carlo_ ? std::vector<std::string>() : silence_notes();
+    answer.head["notes"] = silence_notes_;
     if (force_.is_known) return;
     std::vector<float> force;
     for (std::size_t k = 0; k < force_.values->size(); k += std::max<std::size_t>(1, every_))

@@ -32,16 +32,20 @@ class ResponseJob {
     std::size_t at_ = 0;    // samples of it so far
     std::unique_ptr<Afferent> afferent_;
     std::unique_ptr<AfferentSimulation> simulation_;
-    std::vector<Spike> spikes_;           // since the last answer
-    std::vector<JobResponse> responses_;  // of the plans so far
-    MeasureAccumulator measures_;         // of `respond`: of each plan, in each phase
+    std::vector<Spike> spikes_;               // since the last answer
+    std::vector<JobResponse> responses_;      // of the plans so far
+    MeasureAccumulator measures_;             // of `respond`: of each plan, in each phase
+    std::size_t searched_ = 0;                // after the simulation: number of the plans that silence_notes_ is about
+    std::vector<std::string> silence_notes_;  // about afferents that never fired
+
+    bool is_simulated() const { return plan_ == plans_.size(); }
 
     void prepare_measures();
     void begin_plan();
     void end_plan();
     void simulate_block(const std::atomic<bool>& is_stopped);
     std::vector<std::string> warnings() const;
-    std::vector<std::string> silence_notes() const;
+    void search_factor();
     void add_end(MessageWriter& answer) const;
 
 public:
@@ -51,7 +55,7 @@ public:
     /// Starts `monte-carlo`.
     static Result<ResponseJob> monte_carlo(ObjectReader&, const KeptRecording*);
 
-    bool is_done() const { return plan_ == plans_.size(); }
+    bool is_done() const { return is_simulated() && (is_monte_carlo_ || searched_ == plans_.size()); }
     /// Simulates for about `seconds`, or to the end if it is 0, and adds the results to the answer. It ends with an error when
     /// `is_stopped`.
     Result<void> run(double seconds, const std::atomic<bool>& is_stopped, MessageWriter& answer);

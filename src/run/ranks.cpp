@@ -129,9 +129,10 @@ class MpiRanks final : public Ranks {
 
 public:
     MpiRanks() {
-        // Otherwise the receiver reads a large message from the memory of the sender: not allowed in some containers, and an error if the
-        // sender has been killed.
-        ::setenv("OMPI_MCA_btl_vader_single_copy_mechanism", "none", 0);
+        // Turns off the single copy, with which the receiver reads a large message from the memory of the sender. Some containers do not
+        // allow it, and it fails if the sender has been killed.
+        ::setenv("OMPI_MCA_btl_vader_single_copy_mechanism", "none", 0);  // Open MPI 4
+        ::setenv("OMPI_MCA_smsc", "^cma,knem,xpmem", 0);                  // Open MPI 5
         int provided = 0;
         CORPUSCLE_MPI_FUNCTION(MPI_Init_thread)(nullptr, nullptr, MPI_THREAD_FUNNELED, &provided);
         CORPUSCLE_MPI_FUNCTION(MPI_Comm_rank)(world(), &rank_);

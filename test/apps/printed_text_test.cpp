@@ -1,5 +1,6 @@
 // Printed text: help that fits the width, names without control characters, reported commands without the names of directories.
 
+#include <fmt/format.h>
 #include <filesystem>
 #include <fstream>
 #include <nlohmann/json.hpp>
@@ -237,6 +238,21 @@ TEST(PrintedText, OperatingPointsFitInAHundredColumnsWithEveryValue) {
     EXPECT_EQ(count("\nm1a "), 3U) << "sixteen values on three lines";
     EXPECT_EQ(count("  moderate, saturation\n"), 7U) << bias;
     EXPECT_EQ(count("  weak, saturation\n"), 4U) << bias;
+}
+
+TEST(PrintedText, ALowSamplingRateIsReportedInTheSameWordsByEveryVerb) {
+    const TemporaryFolder folder;
+    std::string recording = "time_s,force_N\n";
+    for (int k = 0; k < 100; ++k) recording += fmt::format("{:.3f},{}\n", k / 500.0, k % 10 / 10.0);
+    folder.write("slow.csv", recording);
+    for (const std::string command :
+         {"respond slow.csv --afferent fa2", "respond slow.csv --population fingertip", "stream --in slow.csv -p fa2"})
+        EXPECT_NE(
+            test::run_program(folder, command)
+                .err.find("the sample rate is 500 Hz, but this afferent needs 1000 Hz or more: vibration above 250 Hz is missing, and "
+                          "the afferent responds to the slower part of the force only"),
+            std::string::npos)
+            << command;
 }
 
 }  // namespace

@@ -6,6 +6,7 @@
 
 #include "circuit/devices.hpp"
 #include "circuit/netlist_runner.hpp"
+#include "circuit/suggestions.hpp"
 
 namespace corpuscle::circuit {
 namespace {
@@ -61,6 +62,24 @@ TEST(Refusals, OfElementsAreReportedTogether) {
               "4.11 r3: unknown parameter 'foo'\n");
     EXPECT_EQ(errors_of("v1 a 0 1\nd1 a 0 d1\nd2 a 0 d2\n.model d1 d(is=-1)\n.model d2 d(eeg=1)\n"),
               "5.1 d1: is = -1 A is outside [1e-40, 1000]\n6.1 d2: unknown parameter 'eeg'; did you mean 'eg'?\n");
+}
+
+TEST(Refusals, OfUnknownModelsSuggestThoseOfTheirScope) {
+    EXPECT_EQ(errors_of(".subckt a d\n.model nmos1 nmos level=1\nm1 d d 0 0 nmos2\n.ends\n.subckt b d\nm1 d d 0 0 nmos2\n.ends\n"
+                        "x1 n a\nx2 n b\nv1 n 0 1\n"),
+              "4.12 m1: unknown model 'nmos2'; did you mean 'nmos1'?\n7.12 m1: unknown model 'nmos2'\n");
+}
+
+TEST(Suggestions, AreSearchedForTheFirstNamesOnlyAndOnceForEach) {
+    Suggestions suggestions;
+    int searches = 0;
+    const std::vector<std::string_view> known{"nmos1"};
+    for (int round = 0; round < 2; ++round)
+        for (int k = 0; k < 1000; ++k) {
+            const auto found = suggestions.for_name(&known, fmt::format("nmos1{}", k), [&] { return ++searches, known; });
+            EXPECT_EQ(found.empty(), k >= 20) << k << found;
+        }
+    EXPECT_EQ(searches, 20);
 }
 
 TEST(Refusals, OfDirectivesDoNotHideThoseOfElements) {

@@ -173,7 +173,7 @@ TEST(PageRequests, AResponseHasItsWarningsAndGoesOnInAnySlice) {
     ASSERT_EQ(answer["done"], true);
     EXPECT_EQ(answer["warnings"],
               Json::array({"fa2 on press: the sample rate is 100 Hz, but this afferent needs 1000 Hz or more: vibration above 50 Hz is "
-                           "missing, and it responds to the slower part of the force only",
+                           "missing, and the afferent responds to the slower part of the force only",
                            "fa2: on press several spikes come within one sample of 10 ms, so their rates are left out; record at 1 kHz or "
                            "more, or read a recording with --resample 2kHz --interpolation smooth"}));
 }

@@ -108,9 +108,10 @@ TEST(Respond, ARateTooLowForAnAfferentIsReported) {
     std::vector<std::unique_ptr<ForceSource>> sources;
     sources.push_back(test::value_or_throw(make_stimulus("press", 500, 0)));
     const auto fa2 = test::value_or_throw(plan_afferent("fa2")), sa1 = test::value_or_throw(plan_afferent("sa1"));
-    EXPECT_EQ(rate_warnings(sources, std::span(&fa2, 1)).at(0),
-              "fa2 on press: the sample rate is 500 Hz, but this afferent needs 1000 Hz or more: vibration above 250 Hz is missing, and it "
-              "responds to the slower part of the force only");
+    EXPECT_EQ(
+        rate_warnings(sources, std::span(&fa2, 1)).at(0),
+        "fa2 on press: the sample rate is 500 Hz, but this afferent needs 1000 Hz or more: vibration above 250 Hz is missing, and the "
+        "afferent responds to the slower part of the force only");
     const auto fa1 = test::value_or_throw(plan_afferent("fa1-nerve"));
     EXPECT_TRUE(rate_warnings(sources, std::span(&fa1, 1)).empty()) << "500 Hz serve";
     EXPECT_TRUE(rate_warnings(sources, std::span(&sa1, 1)).empty());

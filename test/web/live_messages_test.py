@@ -87,7 +87,7 @@ class Links(Messages):
     def test_any_other_sampling_rate_runs_with_a_message_if_it_is_too_low_for_a_row(self):
         self.follow("#rows=fa2&skin=none&rate=750")
         self.assertEqual(self.text("message"), "fa2: the sample rate is 750 Hz, but this afferent needs 1000 Hz or more: "
-                         "vibration above 375 Hz is missing, and it responds to the slower part of the force only")
+                         "vibration above 375 Hz is missing, and the afferent responds to the slower part of the force only")
         self.assertEqual(self.rates(), [750, "750"])
         self.follow("#rows=sa1&skin=none&rate=100000")
         self.assertEqual(self.text("message"), "")

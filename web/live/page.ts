@@ -181,7 +181,7 @@ class LivePage {
         if (!await this.session.start()) return false;
         putSettingsInLink(this.settings);
         this.showForce();
-        if (this.session.warnings.length) this.say(this.session.warnings.join(" "));
+        if (this.session.warnings.length) this.say(this.session.warnings.join("; "));
         this.nwb.hidden = !this.session.formats.includes("nwb");
         this.showSkinControls();
         this.skinView.renew();

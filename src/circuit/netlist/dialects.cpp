@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <map>
+#include <memory>
 
 #include "circuit/expression/spice_number.hpp"
 #include "core/text/ascii_text.hpp"
@@ -100,7 +101,8 @@ std::string_view remedy_for_missing(std::string_view directive) {
                                                                      {".stimulus", "; write the waveform in the line of the source"},
                                                                      {".connect", "; use one name for both nodes, or a 0 V source"},
                                                                      {".sampling", "; use .mc COUNT"}};
-    return all.at(directive);
+    const auto at = all.find(directive);
+    return at == all.end() ? "" : at->second;
 }
 
 bool is_simulator_line(std::string_view line) {

@@ -1,14 +1,12 @@
 // Elaborates a parsed netlist into the flat circuit: expands subcircuits and evaluates directives.
 
 #include "circuit/devices.hpp"
-#include "circuit/expression/spice_number.hpp"
 #include "circuit/netlist/parasitic/voltage_loops.hpp"
 #include "circuit/netlist/scope.hpp"
 #include "circuit/netlist/settings/directive_words.hpp"
 #include "circuit/netlist/settings/node_voltages.hpp"
 #include "circuit/netlist/settings/option_lines.hpp"
 #include "circuit/netlist/settings/set_lines.hpp"
-#include "core/text/ascii_text.hpp"
 
 namespace corpuscle::circuit {
 namespace {
@@ -22,7 +20,6 @@ class CircuitElaborator {
     std::vector<SubcircuitInstance>* instances_;
     Scope top_;
     Statement definition_line_;  // the X line of run_definition()
-
     NodeVoltages node_voltages_;
     /// Whether a subcircuit uses a name that an X line gives and its .subckt line does not.
     std::map<std::pair<const SubcktDef*, std::string>, std::optional<bool>> used_names_;
@@ -221,7 +218,7 @@ private:
                         similar_subcircuit(scope, s.text(name)));
     }
     std::string similar_subcircuit(const Scope& scope, std::string_view name) {
-        return similar_subcircuits_.for_name(name, [&] {
+        return similar_subcircuits_.for_name(scope.definition, name, [&] {
             std::vector<std::string_view> known;
             for (const Scope* f = &scope; f; f = f->enclosing)
                 for (const auto& [subcircuit, body] : f->definition->subcircuits) known.push_back(subcircuit);

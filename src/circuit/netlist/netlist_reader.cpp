@@ -260,8 +260,10 @@ private:
         return read_model(std::move(read), *body_, out_);
     }
 
-    Result<void> branch(LogicalLineReader&, LogicalLine line) { return conditions_.begin_branch(std::move(line), *body_, out_.statements); }
-    Result<void> endif_line(LogicalLineReader&, LogicalLine line) { return conditions_.end(line.location()); }
+    Result<void> branch_line(LogicalLineReader&, LogicalLine line) {
+        return conditions_.begin_branch(std::move(line), *body_, out_.statements);
+    }
+    Result<void> endif_line(LogicalLineReader&, LogicalLine line) { return conditions_.close(line.location()); }
 
     /// Reads a .subckt line. The following lines belong to its body until .ends.
     Result<void> subcircuit(LogicalLineReader&, LogicalLine line) {
@@ -390,9 +392,9 @@ std::span<const NetlistReader::Row> NetlistReader::rows() {
         {".opt", &R::options, top_not_in_if},
         {".set", &R::set_values, top_not_in_if},
         {".title", &R::title, top_not_in_if},
-        {".if", &R::branch, Place::anywhere, AfterError::ends},
-        {".elseif", &R::branch, Place::anywhere, AfterError::ends},
-        {".else", &R::branch, Place::anywhere, AfterError::ends},
+        {".if", &R::branch_line, Place::anywhere, AfterError::ends},
+        {".elseif", &R::branch_line, Place::anywhere, AfterError::ends},
+        {".else", &R::branch_line, Place::anywhere, AfterError::ends},
         {".endif", &R::endif_line, Place::anywhere, AfterError::ends},
         // These become Circuit::directives, as those of the analyses do.
         {".meas", &R::output, top},

@@ -4,6 +4,7 @@
 #include "circuit/devices.hpp"
 #include "circuit/expression/spice_number.hpp"
 #include "circuit/netlist/parsed_netlist.hpp"
+#include "circuit/suggestions.hpp"
 #include "core/text/quantity.hpp"
 
 namespace corpuscle::circuit {
@@ -44,7 +45,7 @@ void warn_about_dangling_nodes(std::vector<Error>& out, const Circuit& c) {
     for (std::size_t n = 1; n < c.nodes.size(); ++n)
         if (terminals[n] == 1 && c.nodes[n].find('.') == std::string::npos)  // not inside a subcircuit
             out.push_back(error_at(element[n]->location, "node '{}' is connected only to {}{}", c.nodes[n], element[n]->name,
-                                   similar_nodes.for_name(c.nodes[n], [&] { return std::span(connected); })));
+                                   similar_nodes.for_name(nullptr, c.nodes[n], [&] { return std::span(connected); })));
 }
 
 bool is_transistor(const Element& e) { return e.letter == 'm'; }

@@ -11,8 +11,8 @@ constexpr std::size_t max_condition_depth = 200;  // of nested .if
 
 /// Writes == for each single = of a condition; ngspice accepts both.
 void double_equals(LogicalLine& line) {
-    constexpr std::size_t longest = 10000;  // characters; the time grows with the square of the length
-    if (line.text.size() > longest) return;
+    constexpr std::size_t max_length = 10000;  // characters; the time grows with the square of the length
+    if (line.text.size() > max_length) return;
     for (std::size_t k = 1; k + 1 < line.text.size(); ++k) {
         constexpr std::string_view operators = "=<>!";
         const auto is_operator = [&](std::size_t n) { return operators.find(line.text[n]) != std::string_view::npos; };
@@ -72,7 +72,7 @@ Result<void> OpenConditions::begin_branch(LogicalLine line, SubcktDef& body, std
     return {};
 }
 
-Result<void> OpenConditions::end(SourceLocation location) {
+Result<void> OpenConditions::close(SourceLocation location) {
     if (open_.size() <= file_begin_) return error_at(std::move(location), ".endif without .if");
     open_.pop_back();
     return {};

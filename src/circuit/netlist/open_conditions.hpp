@@ -1,11 +1,15 @@
 #pragma once
 // The lines .if, .elseif, .else and .endif. Used inside circuit/netlist only.
 
+#include <deque>
+#include <utility>
+#include <vector>
+
 #include "circuit/netlist/parsed_netlist.hpp"
 
 namespace corpuscle::circuit {
 
-/// The .if that are not yet closed where a line is read.
+/// The .if lines that are not yet closed at the line that is being read.
 class OpenConditions {
     struct OpenIf {
         int outer, branch;  // indices in SubcktDef::conditions; -1: none
@@ -23,13 +27,13 @@ public:
     /// Begins a file; returns the value for leave_file().
     std::size_t enter_file() { return std::exchange(file_begin_, open_.size()); }
     void leave_file(std::size_t outer) { file_begin_ = outer; }
-    /// An error if the present file leaves an .if open.
+    /// Returns an error if the present file leaves an .if open.
     Result<void> check_closed() const;
 
     /// Reads a line of .if, .elseif or .else, and adds its branch to the definition.
     Result<void> begin_branch(LogicalLine, SubcktDef&, std::deque<Statement>&);
-    /// Reads .endif.
-    Result<void> end(SourceLocation);
+    /// Reads .endif, which closes the innermost .if.
+    Result<void> close(SourceLocation);
 };
 
 }  // namespace corpuscle::circuit

@@ -76,7 +76,7 @@ Error unknown_model(const Scope& scope, const WordRef& name, std::string_view us
                                           "meg", "mh", "uh", "nh", "fF", "p",  "n",  "u",   "m"};
     const bool is_unit = std::find(std::begin(units), std::end(units), name.view()) != std::end(units);
     const auto hint = is_unit ? "; write a unit directly after its number, without a blank"
-                              : similar_models.for_name(name.view(), [&] { return known_models(scope); });
+                              : similar_models.for_name(scope.definition, name.view(), [&] { return known_models(scope); });
     return error_at(name.location(), "{}: unknown model '{}'{}", user, name.view(), hint);
 }
 

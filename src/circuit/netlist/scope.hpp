@@ -4,6 +4,7 @@
 
 #include "circuit/netlist/parsed_netlist.hpp"
 #include "circuit/netlist/random_values.hpp"
+#include "circuit/suggestions.hpp"
 
 namespace corpuscle::circuit {
 

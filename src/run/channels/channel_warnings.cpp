@@ -55,10 +55,10 @@ std::vector<std::string> response_warnings(const RunStats& stats) {
 }
 
 std::string rate_warning(const AfferentPlan& plan, const std::string& subject, double rate) {
-    if (!(rate < plan.min_rate * (1 - 1e-9))) return "";
+    if (!(rate < plan.min_rate * (1 - 1e-9))) return "";  // a rate that is computed from times may be slightly too small
     return fmt::format(
-        "{}: the sample rate is {:g} Hz, but this afferent needs {:g} Hz or more: vibration above {:g} Hz is missing, and it "
-        "responds to the slower part of the force only",
+        "{}: the sample rate is {:g} Hz, but this afferent needs {:g} Hz or more: vibration above {:g} Hz is missing, and the "
+        "afferent responds to the slower part of the force only",
         subject, rate, plan.min_rate, rate / 2);
 }
 

@@ -21,9 +21,10 @@ std::string range_warning(const std::string& afferent, const std::string& channe
 /// Warnings about the response: truncated steps, saturation, overflow, quantities outside their range, and circuits that did not converge.
 std::vector<std::string> response_warnings(const RunStats&);
 
-/// The warning that a sample rate (Hz) is too low for an afferent; "" if it is not. `subject` begins it: "fa2".
+/// The warning that a sample rate (Hz) is too low for an afferent; "" if it is not. It begins with `subject`, "fa2".
 std::string rate_warning(const AfferentPlan&, const std::string& subject, double rate);
-std::string source_rate_warning(const AfferentPlan&, const std::string& source, double rate);  ///< its subject: "fa2 on press"
+/// The same for a source, with the subject "fa2 on press".
+std::string source_rate_warning(const AfferentPlan&, const std::string& source, double rate);
 
 /// Warnings, known before the run, about sources with a sample rate that is too low for an afferent.
 std::vector<std::string> rate_warnings(std::span<const std::unique_ptr<ForceSource>> sources, std::span<const AfferentPlan> afferents);

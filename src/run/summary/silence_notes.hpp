@@ -23,10 +23,8 @@ struct SilentClass {
 /// another one; otherwise "".
 std::string nerve_advice(const AfferentPlan&);
 
-/// A message such as "fa1 never fired: the largest force was 0.5 N; it would fire at about 6.3 times this force". `name`: of the class.
-std::string silence_message(const std::string& name, const SilentClass&);
-
-/// Both of them, for a class of single afferents.
+/// A note about a class of single afferents, such as "fa1 never fired: the largest force was 0.5 N; it would fire at about 6.3 times this
+/// force", then nerve_advice() if there is any.
 std::string silence_note(const AfferentPlan&, const SilentClass&);
 
 }  // namespace corpuscle

@@ -1,5 +1,9 @@
 #include "circuit/netlist/script/repeated_analyses.hpp"
 
+#include <map>
+#include <set>
+#include <vector>
+
 namespace corpuscle::circuit {
 namespace {
 

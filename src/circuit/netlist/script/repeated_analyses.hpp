@@ -1,6 +1,8 @@
 #pragma once
 // Analyses that a netlist has as a directive and in a script. Used inside circuit/netlist only.
 
+#include <span>
+
 #include "circuit/netlist/parsed_netlist.hpp"
 
 namespace corpuscle::circuit {

@@ -18,7 +18,7 @@ std::size_t group_end(std::string_view text, std::size_t from) {
 
 /// The value, as text, of the expression in braces or quotes from offset `from` to `end` of a word. The original text if it is in double
 /// quotes or cannot be evaluated.
-std::string evaluated(const Scope& scope, const Statement& s, const Word& w, std::size_t from, std::size_t end) {
+std::string evaluate_group(const Scope& scope, const Statement& s, const Word& w, std::size_t from, std::size_t end) {
     const std::string original(s.text(w).substr(from, end - from));
     if (original[0] == '"' || original.size() < 3) return original;
     const Word inside{Word::Kind::expression, static_cast<std::uint32_t>(w.at + from + 1), static_cast<std::uint32_t>(end - from - 2)};
@@ -48,7 +48,7 @@ std::string without_blanks(const Scope& scope, const Statement& s, const Word& w
             continue;
         }
         const auto end = group_end(text, k);
-        out += evaluated(scope, s, w, k, end);
+        out += evaluate_group(scope, s, w, k, end);
         k = end - 1;
     }
     return out;

@@ -1,5 +1,7 @@
 #pragma once
-// The words of directives, in which expressions are in braces or quotes.
+// Directives: their words, in which expressions are in braces or quotes, and the overrides that concern them.
+
+#include <string>
 
 #include "circuit/netlist/scope.hpp"
 
@@ -12,7 +14,8 @@ std::string without_blanks(const Scope&, const Statement&, const Word&);
 
 /// The directive of a line of the top level, whose scope is `top`.
 Directive make_directive(const Scope& top, const Statement&);
-/// Applies the overrides that concern directives. .expect holds only for the netlist as written: if `changes_values`, it is removed.
+/// Applies the overrides that concern directives. .expect holds only for the netlist as written: if `changes_values`, it is
+/// removed with a warning.
 void apply_directive_overrides(const ResolvedOverrides&, bool changes_values, Circuit&);
 
 }  // namespace corpuscle::circuit

@@ -1,6 +1,7 @@
 #include "circuit/netlist/settings/node_voltages.hpp"
 
 #include <algorithm>
+#include <ranges>
 
 #include "circuit/netlist/settings/directive_words.hpp"
 #include "core/text/ascii_text.hpp"
@@ -23,13 +24,13 @@ void NodeVoltages::find_paths(std::span<const Statement* const> lines) {
             const auto close = text.find(')');
             if (!text.starts_with("v(") || close == std::string_view::npos) continue;
             const auto name = with_dots(std::string(trimmed(text.substr(2, close - 2))));
-            if (name.find('.') != std::string::npos) ports_.emplace(name, -1);
+            if (name.find('.') != std::string::npos) paths_.emplace(name, -1);
         }
 }
 
 void NodeVoltages::connect_port(const std::string& path, const std::string& port, int node) {
-    if (ports_.empty()) return;
-    if (const auto named = ports_.find(path + port); named != ports_.end()) named->second = node;
+    if (paths_.empty()) return;
+    if (const auto named = paths_.find(path + port); named != paths_.end()) named->second = node;
 }
 
 Result<void> NodeVoltages::read(const CircuitBuilder& builder, const Scope& scope, const Statement& s) {
@@ -52,8 +53,8 @@ Result<void> NodeVoltages::resolve(Circuit& c) const {
         int k = c.find_node(voltage.node);
         if (k < 0) {
             const auto name = with_dots(voltage.node);
-            const auto port = ports_.find(name);
-            k = port != ports_.end() && port->second >= 0 ? port->second : c.find_node(name);
+            const auto port = paths_.find(name);
+            k = port != paths_.end() && port->second >= 0 ? port->second : c.find_node(name);
         }
         if (k < 0) {
             const auto suggestion = did_you_mean(voltage.node, c.nodes | std::views::drop(1));

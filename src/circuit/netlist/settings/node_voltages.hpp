@@ -1,6 +1,11 @@
 #pragma once
 // .ic v(a)=1 v(b)={x}, and .nodeset of the same form.
 
+#include <span>
+#include <string>
+#include <unordered_map>
+#include <vector>
+
 #include "circuit/netlist/scope.hpp"
 
 namespace corpuscle::circuit {
@@ -14,16 +19,18 @@ class NodeVoltages {
         bool is_ic;  // true: from .ic; false: from .nodeset
     };
     std::vector<NodeVoltage> voltages_;
-    /// Names with a path in the lines of the top level; for a port, the node that it is connected to, else -1.
-    std::unordered_map<std::string, int> ports_;
+    /// Names with a path in the lines of the top level. The value is the index of the node that the port is connected to; -1 if the name
+    /// is not that of a port.
+    std::unordered_map<std::string, int> paths_;
 
 public:
     /// Finds the names with a path, which can be those of ports, in the lines of the top level.
     void find_paths(std::span<const Statement* const> lines);
-    /// The port of the instance with this path ("x1.x2.") is connected to a node of the circuit.
+    /// Records the index of the node that a port is connected to. `path`: of the instance, "x1.x2.".
     void connect_port(const std::string& path, const std::string& port, int node);
+    /// Reads a line of .ic or .nodeset in this scope. Its nodes need not exist yet.
     Result<void> read(const CircuitBuilder&, const Scope&, const Statement&);
-    /// Adds the voltages to the circuit, which is complete.
+    /// Adds the voltages to the circuit. Call it when all nodes exist.
     Result<void> resolve(Circuit&) const;
 };
 

@@ -5,8 +5,8 @@
 
 namespace corpuscle::circuit {
 
-/// Reads the lines of .options and .temp into the circuit, then applies the overrides of options, temperature and mismatch. `top`: the
-/// scope of the top level.
+/// Reads the lines of .options, then the overrides of options, then .temp, then the overrides of temperature and mismatch. Several
+/// temperatures in a .temp line add a .step. `top`: the scope of the top level.
 Result<void> read_settings(const ParsedNetlist&, const Scope& top, const ResolvedOverrides&, Circuit&);
 
 }  // namespace corpuscle::circuit
