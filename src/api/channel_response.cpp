@@ -22,6 +22,7 @@ unsigned threads_for(const Simulation& simulation, std::span<const AfferentPlan>
 }
 
 ChannelPlan plan_of(const Simulation& simulation, Settings& settings, const ForceSource& source) {
+    value_or_throw(check_afferent_count(simulation.afferents.size(), simulation.copies, source.channels().size()));
     const auto spreads = value_or_throw(parse_overrides(simulation.spreads));
     auto plan = value_or_throw(plan_channels({.afferents = simulation.afferents,
                                               .overrides = settings.all,
@@ -32,7 +33,6 @@ ChannelPlan plan_of(const Simulation& simulation, Settings& settings, const Forc
     std::vector<std::string_view> names = {source.name()};
     for (const auto& a : plan.afferents) names.push_back(a.name);
     value_or_throw(check_all_used(settings.unused, names));
-    value_or_throw(check_afferent_count(plan, source.channels().size()));
     return plan;
 }
 

@@ -140,7 +140,7 @@ TEST(TaxelStream, MistakesAreErrorsThatNameTheRemedy) {
         {"respond press --taxels taxels.csv", "--taxels"},
         {"stream --population 'grid 2x2' --taxels taxels.csv --layout x --rate 1kHz < /dev/null", "use --taxels only"},
         {"respond press --population 'grid 2x2' --taxels taxels.csv --contact flat", "use one"},
-        {"respond press --population 'grid 2x2' --taxels taxels.csv", "taxels.csv:3:3: press has 1 channels, but taxels.csv has 2 taxels"}};
+        {"respond press --population 'grid 2x2' --taxels taxels.csv", "taxels.csv:3:3: press has 1 channel, but taxels.csv has 2 taxels"}};
     for (const auto& [command, message] : cases) {
         const auto ran = run_program(folder, command);
         EXPECT_NE(ran.status, 0) << command;

@@ -63,7 +63,7 @@ Result<void> ChannelRun::plan() {
     unused_ = plan_.unused;
     TRY(open_sources());
     TRY(check_overrides());
-    TRY(check_afferent_count(plan_, channel_count()));
+    TRY(check_afferent_count(plan_.afferents.size(), args_.copies, channel_count()));
     outcome_.emplace(plan_, options_);
     outcome_->start(sources_);
     return {};

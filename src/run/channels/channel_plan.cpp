@@ -74,11 +74,10 @@ Result<ChannelPlan> plan_channels(const ChannelPlanRequest& request) {
     return plan;
 }
 
-Result<void> check_afferent_count(const ChannelPlan& plan, std::size_t channels) {
-    const auto count = std::uint64_t{channels} * plan.simulated.size();
+Result<void> check_afferent_count(std::size_t afferents, std::uint32_t copies, std::size_t channels) {
+    const auto count = std::uint64_t{channels} * afferents * std::max(copies, 1U);
     if (count <= std::numeric_limits<std::uint32_t>::max()) return {};
-    return bad_usage(
-        fmt::format("--copies {}: {} afferents over all channels are too many; use fewer copies or channels", plan.copies.count, count));
+    return bad_usage(fmt::format("--copies {}: {} afferents over all channels are too many; use fewer copies or channels", copies, count));
 }
 
 }  // namespace corpuscle

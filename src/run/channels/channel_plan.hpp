@@ -30,7 +30,8 @@ struct ChannelPlan {
 /// Plans the afferents. Refuses one that is given twice, a probe that no netlist has, and a spread that no afferent uses.
 Result<ChannelPlan> plan_channels(const ChannelPlanRequest&);
 
-/// Returns an error if there are more afferents on `channels` channels than 32-bit indexes.
-Result<void> check_afferent_count(const ChannelPlan&, std::size_t channels);
+/// Returns an error if there are more afferents on `channels` channels than 32-bit indexes. `copies`: as in ChannelPlanRequest. Call it
+/// before plan_channels() if the channels are known, because a million copies take seconds.
+Result<void> check_afferent_count(std::size_t afferents, std::uint32_t copies, std::size_t channels);
 
 }  // namespace corpuscle

@@ -182,10 +182,11 @@ Result<std::vector<std::uint32_t>> match_sites(const SkinPlan& plan, const Force
     if (*named) return **std::move(named);
     if (source.channels().size() != plan.sites.size())
         return bad_input(
-            fmt::format("{} has {} channels, but {} has {} sites, named {} ...; name the channels after sites with "
+            fmt::format("{} has {} channel{}, but {} has {} sites, named {} ...; name the channels after sites with "
                         "--layout, select one channel for each site with --channel, or use a population with its sites at the channels "
                         "(sites = \"channels\")",
-                        source.name(), source.channels().size(), plan.name, plan.sites.size(), plan.sites.names[0]));
+                        source.name(), source.channels().size(), source.channels().size() == 1 ? "" : "s", plan.name, plan.sites.size(),
+                        plan.sites.names[0]));
     return in_order;
 }
 

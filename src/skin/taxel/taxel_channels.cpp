@@ -15,7 +15,8 @@ namespace {
 /// The error for different numbers of channels and taxels.
 Error wrong_channel_count(const TaxelLayout& layout, std::span<const std::string> channels, const std::string& source) {
     const auto taxels = layout.taxels.size();
-    const auto counts = fmt::format("{} has {} channels, but {} has {} taxels", source, channels.size(), layout.file, taxels);
+    const auto counts = fmt::format("{} has {} channel{}, but {} has {} taxels", source, channels.size(), channels.size() == 1 ? "" : "s",
+                                    layout.file, taxels);
     if (channels.size() > taxels)
         return bad_input(
             fmt::format("{}: channel '{}' has no row; add it (with dead = 1 if it is not used), or select {} channels by --channel", counts,
