@@ -6,7 +6,7 @@
 
 #include "circuit/devices.hpp"
 #include "circuit/netlist_runner.hpp"
-#include "circuit/suggestions.hpp"
+#include "circuit/similar_names.hpp"
 
 namespace corpuscle::circuit {
 namespace {

@@ -4,7 +4,7 @@
 #include "circuit/devices.hpp"
 #include "circuit/expression/spice_number.hpp"
 #include "circuit/netlist/parsed_netlist.hpp"
-#include "circuit/suggestions.hpp"
+#include "circuit/similar_names.hpp"
 #include "core/text/quantity.hpp"
 
 namespace corpuscle::circuit {

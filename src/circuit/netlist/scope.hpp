@@ -4,7 +4,7 @@
 
 #include "circuit/netlist/parsed_netlist.hpp"
 #include "circuit/netlist/random_values.hpp"
-#include "circuit/suggestions.hpp"
+#include "circuit/similar_names.hpp"
 
 namespace corpuscle::circuit {
 

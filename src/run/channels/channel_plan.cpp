@@ -76,7 +76,7 @@ Result<ChannelPlan> plan_channels(const ChannelPlanRequest& request) {
 
 Result<void> check_afferent_count(std::size_t afferents, std::uint32_t copies, std::size_t channels) {
     const auto count = std::uint64_t{channels} * afferents * std::max(copies, 1U);
-    if (count <= std::numeric_limits<std::uint32_t>::max()) return {};
+    if (copies > max_copies || count <= std::numeric_limits<std::uint32_t>::max()) return {};  // plan_channels() refuses the first
     return bad_usage(fmt::format("--copies {}: {} afferents over all channels are too many; use fewer copies or channels", copies, count));
 }
 
