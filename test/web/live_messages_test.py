@@ -93,6 +93,11 @@ class Links(Messages):
         self.assertEqual(self.text("message"), "")
         self.assertEqual(self.rates(), [100000, "100000"])
 
+    def test_a_link_of_the_user_is_followed_although_the_page_has_written_its_own_since(self):
+        self.js("location.hash = '#rows=sa1&skin=none&rate=5000'; history.replaceState(null, '', '#rows=sa1&skin=none')")  # before the event of the first
+        self.until(lambda: self.rates() == [5000, "5000"])
+        self.until(lambda: "rate=5000" in self.js("return location.hash"))
+
     def rates(self):
         """The sampling rate of the force, and the one that is shown."""
         return self.js("""const chooser = [...document.querySelectorAll('.skin-controls .chooser')].find((one) => one.textContent.startsWith("Samples per second"));

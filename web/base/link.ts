@@ -40,5 +40,15 @@ function replaceLink(text: string) {
     }
 }
 
+/// Calls `follow` when the user has changed the address; setLink() causes no such event. If the delayed change of a setLink() has replaced the
+/// address since, it is put back.
+export function onLinkChange(follow: () => void) {
+    addEventListener("hashchange", ({newURL}) => {
+        clearTimeout(timer);
+        replaceLink(new URL(newURL).hash.replace(/^#/, ""));
+        follow();
+    });
+}
+
 /// A number of a link; null if it is not one.
 export const linkNumber = (text: string | undefined) => (text !== undefined && text.trim() !== "" && Number.isFinite(Number(text)) ? Number(text) : null);

@@ -3,6 +3,7 @@
 import type {NumberArray} from "../base/arrays";
 import {onThemeChange} from "../base/colours";
 import {append, chooser, download, fill, h} from "../base/dom";
+import {onLinkChange} from "../base/link";
 import {quantity} from "../base/text";
 import {csvText} from "../plot/panel";
 import {connectKeys} from "../plot/pointer";
@@ -239,7 +240,7 @@ export async function showLivePage(engine: Engine, head?: object) {
         waiting.remove();
         const page = new LivePage(engine, catalogue);
         await page.openLink();
-        addEventListener("hashchange", () => void page.openLink());  // the user has changed the address; setLink() causes no such event
+        onLinkChange(() => void page.openLink());
         (window as any).corpuscle = page.handles;
         page.run();
     } catch (error) {

@@ -1,6 +1,6 @@
 // The page of the verb `respond`: force, spikes and rates of a channel, then currents and membranes of each afferent, folded, then tables.
 
-import {setLink} from "../base/link";
+import {onLinkChange, setLink} from "../base/link";
 import {chooser, fill, h} from "../base/dom";
 import {quantity} from "../base/text";
 import type {ChannelData, InputData, RespondData, TrialData} from "../data/document";
@@ -42,7 +42,7 @@ class RespondPage {
         this.addTables(main);
         this.restore(state);
         for (const view of this.views) view.onDraw(() => this.keepInLink());
-        addEventListener("hashchange", () => this.restore(readViewLink()));
+        onLinkChange(() => this.restore(readViewLink()));
     }
 
     get views() { return this.trials ? [this.trials.view, this.view] : [this.view]; }

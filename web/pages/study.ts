@@ -2,7 +2,7 @@
 
 import {h} from "../base/dom";
 import {label} from "../base/label";
-import {linkValues, setLink} from "../base/link";
+import {linkValues, onLinkChange, setLink} from "../base/link";
 import {expose, forgetRemoved} from "../base/panels";
 import type {PlotData, StudyData, StudyRecord} from "../data/study";
 import {plotPanel, thumbnail} from "../panels/plots";
@@ -35,7 +35,7 @@ function showStudies(main: Element, data: StudyData) {
         const values = linkValues();
         if (values?.get("")) gallery.open(values.get("")!);
     };
-    addEventListener("hashchange", follow);
+    onLinkChange(follow);
     follow();
 }
 
