@@ -149,6 +149,20 @@ class Controls(LivePage):
         self.assertGreater(self.counts()[0], 3)
         self.assertEqual(self.js("return corpuscle.clicks"), self.counts()[0])
 
+    def test_a_paused_page_draws_only_what_changes(self):
+        self.press(0.3)
+        self.pause()
+        self.settle()
+        self.js("""const {charts, skinView: {scene}} = corpuscle, draw = scene.draw;
+            corpuscle.drawn = 0;
+            charts.view.onDraw(() => ++corpuscle.drawn);
+            scene.draw = () => { ++corpuscle.drawn; draw.call(scene); };""")
+        for _ in range(20):
+            self.settle()
+        self.assertEqual(self.js("return corpuscle.drawn"), 0)
+        ActionChains(self.browser).move_to_element_with_offset(self.browser.find_element(By.CSS_SELECTOR, "#skin-view canvas"), -20, 10).click().perform()
+        self.until(lambda: self.js("return corpuscle.drawn") > 0)
+
     def test_a_restart_ends_a_pause(self):
         self.browser.find_element(By.ID, "pause").click()
         self.until(lambda: self.text("pause") == "Go on")
@@ -252,7 +266,7 @@ class Chip(LivePage):
         self.js("document.querySelector('.row-card details').open = true")
         self.until(lambda: self.all("#run-monte-carlo"))
         self.js("document.getElementById('run-monte-carlo').click()")
-        WebDriverWait(self.browser, 240).until(lambda _: "50 of 50" in self.js("return document.querySelector('.monte-carlo').textContent"))
+        waiting(self.browser, 240).until(lambda _: "50 of 50" in self.js("return document.querySelector('.monte-carlo').textContent"))
         found = self.js("return corpuscle.charts && [...document.querySelectorAll('.monte-carlo')].length")
         self.assertEqual(found, 1)
         subprocess.run([CORPUSCLE, "respond", "press", "--rate", "2kHz", "--afferent", "sa1-circuit", "--set", "sa1-circuit.mismatch=1", "--copies", "3", "--out", OUT / "chips", "--quiet", "--overwrite"], check=True, cwd=ROOT)
@@ -267,7 +281,7 @@ class Chip(LivePage):
         self.js("document.getElementById('run-monte-carlo').click()")
         self.until(lambda: "of 50" in self.js("return document.querySelector('.monte-carlo').textContent"))
         self.js("document.getElementById('play-stimulus').click()")
-        WebDriverWait(self.browser, 120).until(lambda _: "spikes" in self.text("recording-status"))
+        waiting(self.browser, 120).until(lambda _: "spikes" in self.text("recording-status"))
         self.assertIn("stopped by another simulation", self.js("return document.querySelector('.monte-carlo').textContent"))
         document = program("respond", "press", "--rate", "2kHz", "--afferent", "sa1-circuit", "--out", OUT / "stimulus", "--overwrite")
         self.assertTrue(document)
@@ -287,7 +301,7 @@ class Recordings(LivePage):
         self.follow(f"#rows={rows}&rate=2000&skin=none")
         self.pause()
         self.load(ROOT / "examples" / "data" / "touch.csv")
-        WebDriverWait(self.browser, 120).until(lambda _: "spikes" in self.text("recording-status"))
+        waiting(self.browser, 120).until(lambda _: "spikes" in self.text("recording-status"))
         document = program("respond", "examples/data/touch.csv", "--afferent", rows, "--out", OUT / "touch", "--overwrite")
         expected = {name: len(times) for name, times in trains(OUT / "touch" / "spikes.csv").items()}
         self.assertTrue(document)
@@ -300,7 +314,7 @@ class Recordings(LivePage):
         self.load(path)
         self.until(lambda: "--rate" in self.text("recording-status"))
         self.set_options("--rate 500Hz --scale 0.01")  # the file is read again
-        WebDriverWait(self.browser, 60).until(lambda _: "spikes" in self.text("recording-status"))
+        waiting(self.browser, 60).until(lambda _: "spikes" in self.text("recording-status"))
         self.assertIn("1 s", self.text("recording-status"))
         self.set_options("--rate 250Hz --scale 0.01")
         self.until(lambda: "2 s" in self.text("recording-status"))
@@ -316,7 +330,7 @@ class Recordings(LivePage):
         self.load(path)
         self.until(lambda: self.text("recording-status"))
         self.set_options('--abs -c fz --channel="left over" --time-unit ms --scale 0.01 --notch 50Hz --notch 100Hz')
-        WebDriverWait(self.browser, 60).until(lambda _: "spikes" in self.text("recording-status"))
+        waiting(self.browser, 60).until(lambda _: "spikes" in self.text("recording-status"))
         self.assertRegex(self.text("recording-status"), r"^two.csv, fz: 1 s")
         self.assertIn("left over", self.text("recording"))
         for line, message in (("fz --abs", "'fz' is not an option"), ("--chanel fz", "unknown option chanel"), ("--rate", "rate"), ("--rate soon", "soon")):
@@ -348,7 +362,7 @@ class Served(LivePage):
         self.addCleanup(self.server.communicate)
         self.addCleanup(self.server.terminate)
         self.browser.get(re.search(r"http://\S+", self.server.stderr.readline())[0] + "#rows=sa1,sa1-circuit&rate=2000&skin=fingertip")
-        WebDriverWait(self.browser, 60).until(lambda _: self.js("return !!window.corpuscle && corpuscle.session.time > 0"))
+        waiting(self.browser, 60).until(lambda _: self.js("return !!window.corpuscle && corpuscle.session.time > 0"))
 
     def test_spikes_are_saved_as_nwb(self):
         self.press(0.6)
@@ -381,7 +395,7 @@ class Look(LivePage):
                 self.set_theme(is_dark)
                 self.wait(0.1)
                 overflow = self.js("return document.documentElement.scrollWidth - document.documentElement.clientWidth")
-                self.browser.save_screenshot(str(OUT / f"live-{width}{'-dark' if is_dark else ''}.png"))
+                save_picture(self.browser, f"live-{width}{'-dark' if is_dark else ''}.png")
                 self.assertLessEqual(overflow, 0, (width, is_dark))
 
     def test_it_requests_nothing_but_itself(self):

@@ -20,12 +20,13 @@ class LivePanel extends TracePanel {
 }
 
 /// The data of the figures: of a session, or of a stream.
-export interface LiveSource { rows: Row[]; skin: Skin | null; force: LiveCurve; time: number }
+export interface LiveSource { rows: Row[]; skin: Skin | null; force: LiveCurve; time: number; changes: number }  // changes: of the data, so far
 
 export class Charts {
     readonly view = new View();
     private isFollowing = true;
     private shown: [number, number] = [0, SPAN];  // set by follow(); another range was chosen by the user
+    private drawn = -1;  // changes of the data that follow() has shown
 
     constructor(private session: LiveSource, private host: HTMLElement) {
         this.view.setLimits({begin: 0, end: SPAN, smallest: 0.01});
@@ -41,7 +42,7 @@ export class Charts {
             view.add(new RasterPanel({host, name: "rows", title: ["spikes of single afferents under the whole force"], about: "spikes of the rows", height: Math.max(50, 24 * rows.length), rows,
                                       series: [], isBottom: !session.skin, ...common}));
         if (session.skin) view.add(this.skinRaster());
-        [this.isFollowing, this.shown] = [true, [0, SPAN]];
+        [this.isFollowing, this.shown, this.drawn] = [true, [0, SPAN], -1];
         view.setLimits({begin: 0, end: SPAN, smallest: 0.01});
     }
 
@@ -55,10 +56,12 @@ export class Charts {
                                 series: classes.map(({name}) => ({name, colour: classColour(name), width: 3})), clock: this.session.force.clock, phases: []});
     }
 
-    /// Shows the last seconds, unless the user has chosen another range.
+    /// Shows the last seconds, unless the user has chosen another range. Draws only if the data or the range have changed.
     follow() {
-        const {view, session} = this, end = Math.max(session.time, SPAN);
-        if (view.a !== this.shown[0] || view.b !== this.shown[1]) this.isFollowing = view.b >= view.end - 1e-9;
+        const {view, session} = this, end = Math.max(session.time, SPAN), hasMoved = view.a !== this.shown[0] || view.b !== this.shown[1];
+        if (!hasMoved && session.changes === this.drawn) return;
+        this.drawn = session.changes;
+        if (hasMoved) this.isFollowing = view.b >= view.end - 1e-9;
         const length = view.b - view.a;
         view.setLimits({begin: Math.max(0, end - 60), end, smallest: 0.01}, true);
         if (this.isFollowing) view.set(end - length, end);

@@ -40,6 +40,7 @@ export class Session {
     skin: Skin | null = null;
     force = new LiveCurve("force", "N", 1 / PROBE_RATE);  // of each sample
     time = 0;       // simulated since the start, s
+    changes = 0;    // of the data: starts and answers
     speed = 1;      // simulated seconds per second, over about the last second
     contactRadius = 0;  // m
     contactValues = new Map<string, number>();  // of the parameters that can be set for the indenter, SI
@@ -71,6 +72,7 @@ export class Session {
         try {
             const {head, arrays} = await this.engine.request(request);
             ++this.generation;
+            ++this.changes;
             this.rows = head.rows.map((info: RowInfo, k: number) => this.emptyRow(info, variantColour(info.class, head.rows.slice(0, k).filter((one: RowInfo) => one.class === info.class).length)));
             this.skin = head.skin ? skinOf(head.skin, arrays) : null;
             this.force = new LiveCurve("force", "N", 1 / rate);
@@ -194,6 +196,7 @@ export class Session {
     }
 
     private append(head: any, arrays: Record<string, NumberArray>, force: Float64Array) {
+        ++this.changes;
         this.time = head.to / this.rate;
         this.force.append(force, head.from / this.rate);
         appendSpikes([...this.rows.map(({train}) => train), ...(this.skin ? this.skin.trains : [])], arrays.unit, arrays.time);

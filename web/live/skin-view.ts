@@ -20,6 +20,7 @@ export class SkinView {
     private readout = h("p", {class: "readout", id: "skin-readout"});
     private scene: SkinScene | null = null;
     private active: [number, number][] = [];  // mark, level
+    private drawn = "";                        // the press and the time that are drawn
 
     constructor(private session: Session, private press: Press) {
         const help = "Skin. Press with the pointer, or hold the space bar; Enter presses until Enter. Arrow keys move, with Shift faster; + and − change the force.";
@@ -78,6 +79,7 @@ export class SkinView {
         this.root.hidden = !skin;
         this.scene?.remove();
         this.scene = null;
+        this.drawn = "";
         if (!skin) return;
         this.scene = new SkinScene(geometryOf(skin, this.session.rows.length));
         const map = new SkinMap(this.scene, {host: this.host, name: "skin", title: [], about: "the skin, its active afferents, and the contact", classes: skin.classes.map((_, k) => k), hasForce: false, hasRings: true,
@@ -94,13 +96,16 @@ export class SkinView {
 
     redraw() { this.scene?.renew(); }
 
-    /// Called at each frame of the screen.
+    /// Called at each frame of the screen. Draws only what differs from the frame before: a skin at rest does not occupy the processor.
     draw() {
-        const {skin, time} = this.session;
+        const {press, session: {skin, time, contactRadius}} = this;
         if (!skin || !this.scene) return;
         this.active = recentSpikes(skin, time);
+        const shown = [press.x, press.y, press.force, contactRadius, this.active.length > 0 && time].join();
+        if (shown === this.drawn) return;
+        this.drawn = shown;
         this.scene.draw();
-        this.readout.textContent = `${quantity(this.press.force, "N", true)} at ${millimetres(this.press.x)}, ${millimetres(this.press.y)}`;
+        this.readout.textContent = `${quantity(press.force, "N", true)} at ${millimetres(press.x)}, ${millimetres(press.y)}`;
     }
 
     private drawContact({canvas, scene}: SkinMap) {

@@ -16,6 +16,8 @@ class StreamPage implements LiveSource {
     skin: Skin | null = null;
     force = new LiveCurve("force", "N", 1e-3);
     time = 0;
+    changes = 0;
+    private drawn = -1;                             // changes that the map shows
     private siteForce = new Map<number, number>();  // N, of the last frame
     private most = 1e-6;                            // greatest force of a site so far, N
     private lost = {frames: 0, spikes: 0, messages: 0};
@@ -42,6 +44,7 @@ class StreamPage implements LiveSource {
 
     private receive(buffer: ArrayBuffer) {
         const {head, arrays} = messageOf(buffer) as {head: any; arrays: Record<string, NumberArray>};
+        ++this.changes;
         if (head.event === "stream") this.start(head, arrays);
         else if (head.event === "frames") this.append(head, arrays);
         else if (head.event === "lost") [this.lost.messages, this.lost.spikes] = [this.lost.messages + head.messages, this.lost.spikes + head.spikes];
@@ -93,7 +96,8 @@ class StreamPage implements LiveSource {
     run() {
         requestAnimationFrame(() => {
             this.run();
-            this.scene?.draw();
+            if (this.drawn !== this.changes) this.scene?.draw();
+            this.drawn = this.changes;
             this.charts.follow();
             const {frames, spikes, messages} = this.lost, missing = [frames && `${frames} frames`, spikes && `${spikes} spikes`, messages && `${messages} messages`].filter(Boolean).join(", ");
             const text = `${this.state}, ${this.time.toFixed(1)} s, ${this.spikes} spikes${missing ? `; this page missed ${missing}` : ""}`;
