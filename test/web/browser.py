@@ -2,7 +2,7 @@
 """For tests of the pages in a real browser. Each test is a program:   respond_page_test.py CORPUSCLE OUTDIR
 
 It writes pages with the program CORPUSCLE, opens them in headless Chromium, uses them as a reader would, and compares the displayed values with
-the data in the page. Screenshots such as OUTDIR/press.png remain for inspection.
+the data in the page. Pictures of the pages, such as press.png, are saved in the directory CORPUSCLE_PICTURES if this variable is set.
 """
 import atexit
 import base64
@@ -11,6 +11,7 @@ import csv
 import functools
 import json
 import math
+import os
 import pathlib
 import re
 import shutil
@@ -152,6 +153,17 @@ def with_default_settings(browser):
     return browser
 
 
+def waiting(browser, seconds):
+    """Waits for a condition. It asks ten times a second, because a page that is alive uses the processor while a test waits."""
+    return WebDriverWait(browser, seconds, poll_frequency=0.1)
+
+
+def save_picture(browser, name):
+    """Saves a picture of the window for inspection, if somewhere to save it is set."""
+    if "CORPUSCLE_PICTURES" in os.environ:
+        browser.save_screenshot(os.path.join(os.environ["CORPUSCLE_PICTURES"], name))
+
+
 def missing_values(browser):
     """Words of the page that a script writes if a key or a number is missing."""
     text = browser.execute_script("""return [...document.body.querySelectorAll("*")].filter((one) => !["SCRIPT", "STYLE"].includes(one.tagName))
@@ -178,7 +190,7 @@ class Page(unittest.TestCase):
         self.browser.get(self.path.as_uri())
         # On a busy machine get() sometimes returned while the previous, empty page was still shown.
         is_loaded = "return location.href === arguments[0] && document.readyState === 'complete'"
-        WebDriverWait(self.browser, 30).until(lambda browser: browser.execute_script(is_loaded, self.path.as_uri()))
+        waiting(self.browser, 30).until(lambda browser: browser.execute_script(is_loaded, self.path.as_uri()))
         self.input = self.data["inputs"][0]
         self.end = self.input["t0"] + self.input["samples"] * self.input["T"]
 
@@ -198,7 +210,7 @@ class Page(unittest.TestCase):
 
     def settle(self, moved):
         """Waits until all panels are drawn with a window (a, b) for which `moved(a, b)` is true."""
-        WebDriverWait(self.browser, 20).until(lambda _: all(moved(*window) for window in self.windows()))
+        waiting(self.browser, 20).until(lambda _: all(moved(*window) for window in self.windows()))
 
     def plot(self, panel):
         found = self.browser.find_element(By.CSS_SELECTOR, f'[data-panel="{panel}"] .plot')
@@ -223,7 +235,7 @@ class Page(unittest.TestCase):
         plot, x = self.at_time(panel, t)
         self.js("document.getElementById('now').textContent = ''")
         ActionChains(self.browser, duration=50).move_to_element_with_offset(plot, x, 0).perform()
-        WebDriverWait(self.browser, 20).until(lambda _: self.browser.find_element(By.ID, "now").text)
+        waiting(self.browser, 20).until(lambda _: self.browser.find_element(By.ID, "now").text)
 
     def readout(self, panel, series):
         return self.browser.find_element(By.CSS_SELECTOR, f'[data-panel="{panel}"] [data-series="{series}"] .legend-value').text
@@ -279,11 +291,14 @@ class Page(unittest.TestCase):
             self.browser.execute_cdp_cmd("Emulation.clearDeviceMetricsOverride", {})
 
     def screenshot(self, name):
+        """Saves a picture of the complete page, if pictures are wanted."""
+        if "CORPUSCLE_PICTURES" not in os.environ:
+            return
         self.browser.set_window_size(1200, 900)
         height = self.js("scrollTo(0, 0); return document.documentElement.scrollHeight")
         self.browser.set_window_size(1200, height + 160)  # the height of the browser's own controls, with some margin
         self.js("return new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(done)))")
-        self.browser.save_screenshot(str(OUT / name))
+        save_picture(self.browser, name)
         self.browser.set_window_size(1200, 900)
 
 

@@ -31,7 +31,7 @@ class LivePage(Pages):
 
     def start(self, link="", **screen):
         self.open(PAGE, link, **screen)
-        WebDriverWait(self.browser, 60).until(lambda _: self.js("return !!window.corpuscle && corpuscle.session.time > 0"))
+        waiting(self.browser, 60).until(lambda _: self.js("return !!window.corpuscle && corpuscle.session.time > 0"))
 
     def follow(self, link):
         """Changes the link in the address bar. The page follows it without being loaded again."""
@@ -44,7 +44,7 @@ class LivePage(Pages):
     def wait(self, seconds):
         """Waits until so much more time is simulated."""
         until = self.time() + seconds
-        WebDriverWait(self.browser, 60).until(lambda _: self.time() >= until)
+        waiting(self.browser, 60).until(lambda _: self.time() >= until)
 
     def press(self, seconds):
         """Presses the middle of the skin with the pointer."""

@@ -148,7 +148,7 @@ class Files(Replays):
         self.follow("#rows=sa1&rate=2000&skin=none")
         self.load_options("--rate 100kHz --unit N")
         self.load(path)
-        WebDriverWait(self.browser, 120).until(lambda _: "simulated" in self.text("recording-status"))
+        waiting(self.browser, 120).until(lambda _: "simulated" in self.text("recording-status"))
         self.assertIn("bytes.npy: ", self.text("recording-status"))  # 136 MB as numbers of double precision, which did not fit a message
         self.js("document.getElementById('play-stimulus').click()")
         self.until(lambda: self.text("recording-status").startswith("press: 1 s"))
@@ -190,7 +190,7 @@ class Server(LivePage):
         self.addCleanup(self.server.communicate)
         self.addCleanup(self.server.terminate)
         self.browser.get(re.search(r"http://\S+", self.server.stderr.readline())[0] + "#rows=sa1&rate=2000&skin=fingertip")
-        WebDriverWait(self.browser, 60).until(lambda _: self.js("return !!window.corpuscle && corpuscle.session.time > 0"))
+        waiting(self.browser, 60).until(lambda _: self.js("return !!window.corpuscle && corpuscle.session.time > 0"))
 
     def test_a_paused_page_says_that_the_server_has_ended(self):
         self.pause()

@@ -52,7 +52,7 @@ class Pages(unittest.TestCase):
         return self.js("return [...document.querySelectorAll(arguments[0])].map((one) => one.textContent)", selector)
 
     def until(self, condition):
-        return WebDriverWait(self.browser, 20).until(lambda _: condition())
+        return waiting(self.browser, 20).until(lambda _: condition())
 
     def panels(self):
         return self.js("return Object.keys(corpuscle.panels)")
@@ -89,7 +89,7 @@ class Pages(unittest.TestCase):
                 self.assertLessEqual(self.js("return document.documentElement.scrollWidth"), width, at)
                 self.assertEqual(self.js(OVERLAPS), [], at)
                 self.assertEqual(overfull_bars(self.browser), [], at)
-                self.browser.save_screenshot(str(OUT / f"{name}-{width}{'-dark' if is_dark else ''}.png"))
+                save_picture(self.browser, f"{name}-{width}{'-dark' if is_dark else ''}.png")
 
     def assert_contrast(self, path):
         """Text and marks have the contrast of WCAG AA in both themes."""

@@ -30,7 +30,7 @@ class Features(Page):
 
     def downloaded(self, name):
         path = pathlib.Path(self.downloads.name) / name
-        WebDriverWait(self.browser, 20).until(lambda _: path.exists() and path.stat().st_size)
+        waiting(self.browser, 20).until(lambda _: path.exists() and path.stat().st_size)
         return path.read_bytes()
 
     def toggle(self, panel, series):
@@ -70,7 +70,7 @@ class Features(Page):
 
     def test_the_wheel_alone_scrolls_the_page_unless_a_panel_has_the_focus(self):
         self.wheel("force", 0.3, 240, ctrl=False)
-        WebDriverWait(self.browser, 20).until(lambda _: self.js("return scrollY") > 0)
+        waiting(self.browser, 20).until(lambda _: self.js("return scrollY") > 0)
         self.assertEqual(self.js("return corpuscle.window()"), [0, 1])
         self.js("corpuscle.panels.force.plot.focus({preventScroll: true})")
         self.wheel("force", 0.3, -240, ctrl=False)
@@ -105,7 +105,7 @@ class Features(Page):
         plot, x = self.at_time("raster", times[3])
         row = self.js("const {area} = corpuscle.panels.raster; return area.y + area.h / 4")
         ActionChains(self.browser, duration=50).move_to_element_with_offset(plot, x, round(row - plot.size["height"] / 2)).perform()
-        tip = WebDriverWait(self.browser, 20).until(lambda _: self.browser.find_element(By.CSS_SELECTOR, '[data-panel="raster"] .tip').text)
+        tip = waiting(self.browser, 20).until(lambda _: self.browser.find_element(By.CSS_SELECTOR, '[data-panel="raster"] .tip').text)
         self.assertIn(f"sa1: spike 4 of {len(times)} at {times[3]:.6f}", tip)
         interval = re.search(r", (\S+\s\S+) after the one before", tip)[1]
         self.assertAlmostEqual(si(interval), times[3] - times[2], delta=1e-3 * (times[3] - times[2]))
@@ -115,15 +115,15 @@ class Features(Page):
         plot, x = self.at_time("frequency", times[0])
         y = self.js("return corpuscle.panels.frequency.y(arguments[0])", 1 / (times[1] - times[0]))
         ActionChains(self.browser, duration=50).move_to_element_with_offset(plot, x, round(y - plot.size["height"] / 2)).perform()
-        tip = WebDriverWait(self.browser, 20).until(lambda _: self.browser.find_element(By.CSS_SELECTOR, '[data-panel="frequency"] .tip').text)
+        tip = waiting(self.browser, 20).until(lambda _: self.browser.find_element(By.CSS_SELECTOR, '[data-panel="frequency"] .tip').text)
         self.assertAlmostEqual(si(re.match(r"fa1: (\S+\s\S+) at", tip)[1]) * (times[1] - times[0]), 1, delta=1e-3)
 
     def test_shift_and_the_arrows_move_the_cursor(self):
         body = self.browser.find_element(By.TAG_NAME, "body")
         body.send_keys(Keys.SHIFT, Keys.ARROW_RIGHT)
-        WebDriverWait(self.browser, 20).until(lambda _: self.browser.find_element(By.ID, "now").text)
+        waiting(self.browser, 20).until(lambda _: self.browser.find_element(By.ID, "now").text)
         body.send_keys(Keys.ESCAPE)
-        WebDriverWait(self.browser, 20).until(lambda _: not self.browser.find_element(By.ID, "now").text)
+        waiting(self.browser, 20).until(lambda _: not self.browser.find_element(By.ID, "now").text)
 
     # Tables
 
@@ -178,7 +178,7 @@ class Features(Page):
         self.browser.execute_cdp_cmd("Browser.grantPermissions", {"permissions": ["clipboardReadWrite", "clipboardSanitizedWrite"]})
         button = self.browser.find_element(By.CSS_SELECTOR, ".command button")
         button.click()
-        WebDriverWait(self.browser, 20).until(lambda _: button.text == "Copied")
+        waiting(self.browser, 20).until(lambda _: button.text == "Copied")
         self.js("document.body.prepend(Object.assign(document.createElement('textarea'), {id: 'paste'}))")
         self.browser.find_element(By.ID, "paste").send_keys(Keys.CONTROL, "v")
         self.assertEqual(self.js("return document.getElementById('paste').value"), self.data["command"])
@@ -189,16 +189,16 @@ class Features(Page):
         """Opens the page with a link, as another reader would."""
         self.browser.get("about:blank")
         self.browser.get(link)
-        WebDriverWait(self.browser, 30).until(lambda browser: browser.execute_script("return document.readyState === 'complete' && Boolean(window.corpuscle)"))
+        waiting(self.browser, 30).until(lambda browser: browser.execute_script("return document.readyState === 'complete' && Boolean(window.corpuscle)"))
         self.next_frame()
 
     def link(self, holds):
-        WebDriverWait(self.browser, 20).until(lambda _: holds in self.js("return location.hash"))
+        waiting(self.browser, 20).until(lambda _: holds in self.js("return location.hash"))
         return self.js("return location.href")
 
     def test_a_link_restores_the_view(self):
         self.browser.find_element(By.CSS_SELECTOR, "details.fold summary").click()
-        WebDriverWait(self.browser, 20).until(lambda _: "sa1 membrane" in self.panels())
+        waiting(self.browser, 20).until(lambda _: "sa1 membrane" in self.panels())
         self.browser.find_element(By.ID, "autoscale").click()
         self.toggle("sa1 current", "I_A")
         self.toggle("frequency", "fa1")
@@ -246,7 +246,7 @@ class Features(Page):
             self.assertEqual([name for name, _ in self.js("return window.printed")], ["force", "raster", "frequency", "sa1 current", "sa1 membrane", "fa1 current", "fa1 membrane"])
             self.assertEqual({width for _, width in self.js("return window.printed")}, {700})
             self.assertEqual(self.js("return window.ground"), "rgb(255, 255, 255)")
-            WebDriverWait(self.browser, 20).until(lambda _: self.js("return document.querySelectorAll('details.fold[open]').length") == 0)
+            waiting(self.browser, 20).until(lambda _: self.js("return document.querySelectorAll('details.fold[open]').length") == 0)
         finally:
             self.browser.execute_cdp_cmd("Emulation.setEmulatedMedia", {"features": []})
 
@@ -275,7 +275,7 @@ class Features(Page):
                         self.assertLessEqual(self.js("return document.documentElement.scrollWidth"), width)
                         for panel in self.panels():
                             self.assertEqual(self.overlapping_labels(panel), [], panel)
-                        self.browser.save_screenshot(str(OUT / f"features-{width}-{theme}.png"))
+                        save_picture(self.browser, f"features-{width}-{theme}.png")
 
     def overlapping_labels(self, panel):
         """Pairs of tick labels that overlap or leave the drawing."""
@@ -349,7 +349,7 @@ class ManyChannels(Page):
         with self.screen(1400, 900, 1):
             for panel in self.panels():
                 self.assertLess(self.js("return document.querySelector(arguments[0]).getBoundingClientRect().bottom", f'[data-panel="{panel}"]'), 900, panel)
-            self.browser.save_screenshot(str(OUT / "forty.png"))
+            save_picture(self.browser, "forty.png")
 
     def test_the_heat_map_shows_the_pressed_channel_and_its_values(self):
         def pixel(channel, t):
@@ -367,16 +367,16 @@ class ManyChannels(Page):
         self.assertEqual(self.shown(), "taxel17")
         plot, area = self.plot("all forces"), self.js("return corpuscle.panels['all forces'].area")
         ActionChains(self.browser).move_to_element_with_offset(plot, 0, round(area["y"] + area["h"] * 30.5 / 40 - plot.size["height"] / 2)).click().perform()
-        WebDriverWait(self.browser, 20).until(lambda _: self.shown() == "taxel30")
-        self.assertIn("channel=31", WebDriverWait(self.browser, 20).until(lambda _: self.js("return location.hash")))
+        waiting(self.browser, 20).until(lambda _: self.shown() == "taxel30")
+        self.assertIn("channel=31", waiting(self.browser, 20).until(lambda _: self.js("return location.hash")))
 
     def test_a_long_pan_does_not_change_the_link_too_often(self):
         self.js("for (let k = 0; k < 400; ++k) setTimeout(() => corpuscle.setWindow(k / 1000, k / 1000 + 0.1), 2 * k)")
-        WebDriverWait(self.browser, 30).until(lambda _: "from=0.399" in self.js("return location.hash"))  # a warning in the console would fail
+        waiting(self.browser, 30).until(lambda _: "from=0.399" in self.js("return location.hash"))  # a warning in the console would fail
 
     def test_back_in_the_history_shows_the_view_of_that_link(self):
         self.js("location.hash = '#channel=4&from=0.25&to=0.5'")
-        WebDriverWait(self.browser, 20).until(lambda _: self.shown() == "taxel03")
+        waiting(self.browser, 20).until(lambda _: self.shown() == "taxel03")
         self.assertEqual(self.js("return corpuscle.window()"), [0.25, 0.5])
 
 
@@ -401,7 +401,7 @@ class InAFrame(Page):
     def setUp(self):
         super().setUp()
         self.browser.switch_to.frame(0)
-        WebDriverWait(self.browser, 20).until(lambda _: self.js("return Boolean(window.corpuscle) && Object.values(corpuscle.panels).every(({area}) => area.w > 0)"))
+        waiting(self.browser, 20).until(lambda _: self.js("return Boolean(window.corpuscle) && Object.values(corpuscle.panels).every(({area}) => area.w > 0)"))
 
     def tearDown(self):
         super().tearDown()
@@ -413,7 +413,7 @@ class InAFrame(Page):
         self.js("corpuscle.setWindow(0.25, 0.5)")
         self.browser.find_element(By.CSS_SELECTOR, '[data-panel="frequency"] button[data-series="sa1"]').click()
         self.browser.find_element(By.CSS_SELECTOR, "details.fold summary").click()
-        WebDriverWait(self.browser, 20).until(lambda _: "sa1 membrane" in self.panels())
+        waiting(self.browser, 20).until(lambda _: "sa1 membrane" in self.panels())
         self.assertEqual(self.js("return corpuscle.window()"), [0.25, 0.5])
         self.assertLessEqual(self.js("return document.documentElement.scrollWidth - document.documentElement.clientWidth"), 1)
 

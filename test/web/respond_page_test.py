@@ -153,7 +153,7 @@ class Press(Page):
 
     def test_it_fits_a_narrow_window(self):
         self.browser.set_window_size(700, 900)
-        WebDriverWait(self.browser, 20).until(lambda _: self.js("return corpuscle.panels.force.plot.clientWidth < 700"))
+        waiting(self.browser, 20).until(lambda _: self.js("return corpuscle.panels.force.plot.clientWidth < 700"))
         self.assertLessEqual(self.js("return document.documentElement.scrollWidth - innerWidth"), 0)
         self.browser.set_window_size(1200, 900)
 
@@ -344,7 +344,7 @@ class Trials(Page):
         before = self.js("return corpuscle.window()")
         plot = self.plot("trial force")
         ActionChains(self.browser).move_to_element(plot).click().send_keys("+").perform()
-        WebDriverWait(self.browser, 20).until(lambda _: self.js("const {view} = corpuscle.panels['trial raster']; return view.b - view.a") < 0.4)
+        waiting(self.browser, 20).until(lambda _: self.js("const {view} = corpuscle.panels['trial raster']; return view.b - view.a") < 0.4)
         self.assertEqual(self.js("return corpuscle.window()"), before)
 
     def test_a_click_on_a_trial_shows_its_recording(self):
@@ -353,7 +353,7 @@ class Trials(Page):
         plot, area = self.plot("trial raster"), self.js("return corpuscle.panels['trial raster'].area")
         row = area["y"] + area["h"] * 7.5 / 8
         ActionChains(self.browser).move_to_element_with_offset(plot, 0, round(row - plot.size["height"] / 2)).click().perform()
-        WebDriverWait(self.browser, 20).until(lambda _: Select(self.browser.find_element(By.ID, "input")).first_selected_option.text == trials[last]["input"])
+        waiting(self.browser, 20).until(lambda _: Select(self.browser.find_element(By.ID, "input")).first_selected_option.text == trials[last]["input"])
         a, b = self.js("return corpuscle.window()")
         self.assertAlmostEqual(b - a, trials[last]["to"] - trials[last]["from"], places=6)
 
@@ -364,7 +364,7 @@ class Trials(Page):
             with self.screen(390, 844, 2):
                 self.assertEqual(self.js("return document.documentElement.scrollWidth"), 390)
                 self.assertGreater(self.js("return document.querySelector('#trials canvas').clientWidth"), 0.85 * 390)
-                self.browser.save_screenshot(str(OUT / f"trials-phone-{theme}.png"))
+                save_picture(self.browser, f"trials-phone-{theme}.png")
         self.browser.execute_cdp_cmd("Emulation.setEmulatedMedia", {"features": []})
 
 
@@ -412,7 +412,7 @@ class ManyFiles(Page):
     def test_a_click_on_a_row_selects_its_file(self):
         plot, area = self.plot("trial raster"), self.js("return corpuscle.panels['trial raster'].area")
         ActionChains(self.browser).move_to_element_with_offset(plot, 0, round(area["y"] + area["h"] * 8.5 / 12 - plot.size["height"] / 2)).click().perform()
-        WebDriverWait(self.browser, 20).until(lambda _: Select(self.browser.find_element(By.ID, "input")).first_selected_option.text == "tap_09")
+        waiting(self.browser, 20).until(lambda _: Select(self.browser.find_element(By.ID, "input")).first_selected_option.text == "tap_09")
 
 
 class NetlistsAlone(Page):
@@ -489,16 +489,16 @@ class TwoChannels(Page):
         x, y, w, h = (self.js("return corpuscle.panels.raster.area")[k] for k in "xywh")
         row = y + 1.5 * h / 4  # sa1 on the second channel
         ActionChains(self.browser).move_to_element_with_offset(plot, 0, round(row - plot.size["height"] / 2)).click().perform()
-        WebDriverWait(self.browser, 20).until(lambda _: self.shown() == "second <b>")
+        waiting(self.browser, 20).until(lambda _: self.shown() == "second <b>")
 
     def test_keys_reach_a_row_and_enter_selects_its_channel(self):
         first = self.shown()
         self.js("corpuscle.panels.raster.plot.focus()")
         ActionChains(self.browser).send_keys(Keys.ARROW_DOWN, Keys.ENTER).perform()
-        WebDriverWait(self.browser, 20).until(lambda _: self.shown() != first)
+        waiting(self.browser, 20).until(lambda _: self.shown() != first)
         self.assertTrue(self.js("return document.activeElement === corpuscle.panels.raster.plot"), "the new raster has the focus")
         ActionChains(self.browser).send_keys(Keys.ARROW_UP, Keys.ENTER).perform()
-        WebDriverWait(self.browser, 20).until(lambda _: self.shown() == first)
+        waiting(self.browser, 20).until(lambda _: self.shown() == first)
 
     def test_the_table_can_show_all_channels(self):
         self.browser.find_element(By.ID, "all-rows").click()

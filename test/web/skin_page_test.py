@@ -41,7 +41,7 @@ class SkinPage(Page):
 
     def to_time(self, t):
         self.js("corpuscle.view.point(arguments[0])", t)
-        WebDriverWait(self.browser, 20).until(lambda _: self.js("return corpuscle.maps.time") == t)
+        waiting(self.browser, 20).until(lambda _: self.js("return corpuscle.maps.time") == t)
         self.next_frame()
 
     def to_frame(self, frame):
@@ -171,7 +171,7 @@ class OnASkin(SkinPage):
         first = self.data["summary"]["first_spikes"][0]
         canvas, x, y = self.place(first["afferent_index"])
         ActionChains(self.browser, duration=50).move_to_element_with_offset(canvas, x, y).perform()
-        WebDriverWait(self.browser, 20).until(lambda _: self.browser.find_element(By.ID, "unit").text.startswith(first["afferent"] + ","))
+        waiting(self.browser, 20).until(lambda _: self.browser.find_element(By.ID, "unit").text.startswith(first["afferent"] + ","))
         self.assertIn(f"{first['time_s']:.4f}", self.browser.find_element(By.ID, "unit").text)
         tip = self.browser.find_element(By.CSS_SELECTOR, f'[data-map="{first["afferent"].split("#")[0]}"] .tip')
         self.assertTrue(tip.is_displayed() and tip.text.startswith(first["afferent"]))
@@ -182,14 +182,14 @@ class OnASkin(SkinPage):
         ActionChains(self.browser, duration=50).move_to_element_with_offset(canvas, x, y).perform()
         box = self.js("const {left, top, width, height} = arguments[0].getBoundingClientRect(); return [left + width / 2, top + height / 2]", canvas)
         self.browser.execute_cdp_cmd("Input.dispatchMouseEvent", {"type": "mouseWheel", "x": box[0] + x, "y": box[1] + y, "deltaX": 0, "deltaY": -300, "modifiers": 2})
-        WebDriverWait(self.browser, 20).until(lambda _: self.js("return corpuscle.scene.scale") > 1.4 * before)
+        waiting(self.browser, 20).until(lambda _: self.js("return corpuscle.scene.scale") > 1.4 * before)
         _, after_x, after_y = self.place(self.classes[0]["first"])
         self.assertLess(max(abs(after_x - x), abs(after_y - y)), 4)
         ActionChains(self.browser, duration=50).drag_and_drop_by_offset(canvas, 40, 30).perform()
         _, moved_x, moved_y = self.place(self.classes[0]["first"])
         self.assertLess(max(abs(moved_x - after_x - 40), abs(moved_y - after_y - 30)), 4)
         ActionChains(self.browser, duration=50).double_click(canvas).perform()
-        WebDriverWait(self.browser, 20).until(lambda _: self.js("return corpuscle.scene.isComplete && corpuscle.scene.scale") == before)
+        waiting(self.browser, 20).until(lambda _: self.js("return corpuscle.scene.isComplete && corpuscle.scene.scale") == before)
 
     def test_two_fingers_zoom_a_map_and_one_taps_an_afferent(self):
         with self.screen(390, 844, 2):
@@ -200,13 +200,13 @@ class OnASkin(SkinPage):
                 left, top = self.js("const {left, top, width, height} = arguments[0].getBoundingClientRect(); return [left + width / 2, top + height / 2]", canvas)
                 touch("touchStart", (left + x, top + y))
                 touch("touchEnd")
-                WebDriverWait(self.browser, 20).until(lambda _: self.browser.find_element(By.ID, "unit").text.startswith("sa1#8,"))
+                waiting(self.browser, 20).until(lambda _: self.browser.find_element(By.ID, "unit").text.startswith("sa1#8,"))
                 before = self.js("return corpuscle.scene.scale")
                 touch("touchStart", (left - 30, top), (left + 30, top))
                 for step in range(1, 5):
                     touch("touchMove", (left - 30 - 10 * step, top), (left + 30 + 10 * step, top))
                 touch("touchEnd")
-                WebDriverWait(self.browser, 20).until(lambda _: abs(self.js("return corpuscle.scene.scale") / before - 70 / 30) < 0.1)
+                waiting(self.browser, 20).until(lambda _: abs(self.js("return corpuscle.scene.scale") / before - 70 / 30) < 0.1)
             finally:
                 self.browser.execute_cdp_cmd("Emulation.setTouchEmulationEnabled", {"enabled": False})
 
@@ -221,7 +221,7 @@ class OnASkin(SkinPage):
             menu.find_element(By.TAG_NAME, "summary").click()
             menu.find_element(By.XPATH, f".//button[text()='{kind}']").click()
             path = pathlib.Path(self.downloads.name) / f"sa1.{kind.lower()}"
-            WebDriverWait(self.browser, 20).until(lambda _: path.exists() and path.stat().st_size)
+            waiting(self.browser, 20).until(lambda _: path.exists() and path.stat().st_size)
             files[kind] = path.read_bytes()
         self.assertEqual(files["PNG"][:8], b"\x89PNG\r\n\x1a\n")
         size = self.js("const {canvas} = corpuscle.scene.maps[0]; return [canvas.width, canvas.height]")
@@ -240,7 +240,7 @@ class OnASkin(SkinPage):
         self.to_frame(2)
         self.browser.find_element(By.ID, "play").click()
         for frame in (6, 12):
-            WebDriverWait(self.browser, 20).until(lambda _: self.js("return corpuscle.frame") > frame)
+            waiting(self.browser, 20).until(lambda _: self.js("return corpuscle.frame") > frame)
         line = self.js("return new DOMMatrix(document.querySelector('[data-panel=force] .hairline').style.transform).e")
         self.assertGreater(line, self.js("return corpuscle.panels.force.x(arguments[0])", 6 * self.over["marks"]["width"]))
         self.browser.find_element(By.TAG_NAME, "body").send_keys(" ")
@@ -248,16 +248,16 @@ class OnASkin(SkinPage):
         stopped = self.js("return corpuscle.frame")
         self.assertEqual(self.browser.find_element(By.ID, "time").get_attribute("value"), str(stopped))
         self.browser.find_element(By.ID, "time").send_keys(Keys.ARROW_RIGHT)
-        WebDriverWait(self.browser, 20).until(lambda _: self.js("return corpuscle.frame") == stopped + 1)
+        waiting(self.browser, 20).until(lambda _: self.js("return corpuscle.frame") == stopped + 1)
         self.browser.find_element(By.ID, "step-back").click()
-        WebDriverWait(self.browser, 20).until(lambda _: self.js("return corpuscle.frame") == stopped)
+        waiting(self.browser, 20).until(lambda _: self.js("return corpuscle.frame") == stopped)
 
     def test_it_starts_at_the_beginning_and_plays_from_there(self):
         self.assertEqual(self.js("return [corpuscle.frame, corpuscle.view.cursor]"), [0, self.over["t0"]])
         self.assertEqual(self.browser.find_element(By.ID, "time").get_attribute("value"), "0")
         self.js("window.seen = []; corpuscle.view.onCursor(() => seen.push(corpuscle.view.cursor))")
         self.browser.find_element(By.ID, "play").click()
-        WebDriverWait(self.browser, 20).until(lambda _: self.js("return corpuscle.frame") > 3)
+        waiting(self.browser, 20).until(lambda _: self.js("return corpuscle.frame") > 3)
         seen = self.js("return seen")
         self.assertLess(seen[0], 0.02 * self.js("return corpuscle.view.end"))
         self.assertEqual(seen, sorted(seen))
@@ -267,7 +267,7 @@ class OnASkin(SkinPage):
         end = self.js("return corpuscle.view.end")
         self.to_time(end - 3 * self.over["marks"]["width"])
         self.browser.find_element(By.ID, "play").click()
-        WebDriverWait(self.browser, 20).until(lambda _: not self.js("return corpuscle.player.isPlaying"))
+        waiting(self.browser, 20).until(lambda _: not self.js("return corpuscle.player.isPlaying"))
         self.assertEqual(self.js("return corpuscle.view.cursor"), end)
 
     def test_a_link_restores_time_zoom_mode_and_region(self):
@@ -275,7 +275,7 @@ class OnASkin(SkinPage):
         self.select("mode", "Rate, 100\u00a0ms")
         self.select("region", "touched area")
         self.js("corpuscle.view.set(0.2, 0.5)")
-        WebDriverWait(self.browser, 20).until(lambda _: "from=0.2" in self.js("return location.hash"))
+        waiting(self.browser, 20).until(lambda _: "from=0.2" in self.js("return location.hash"))
         scale, link = self.js("return [corpuscle.scene.scale, location.hash]")
         self.open(link)
         self.assertEqual(self.js("return [corpuscle.view.a, corpuscle.view.b, corpuscle.view.cursor, corpuscle.maps.mode.label, corpuscle.maps.time]"), [0.2, 0.5, 0.3, "Rate, 100\u00a0ms", 0.3])
@@ -314,7 +314,7 @@ class OnASkin(SkinPage):
     def test_a_row_of_a_raster_is_chosen_on_the_maps(self):
         plot = self.plot("raster fa1")
         ActionChains(self.browser, duration=50).move_to_element(plot).perform()
-        WebDriverWait(self.browser, 20).until(lambda _: self.js("return corpuscle.scene.chosen") is not None)
+        waiting(self.browser, 20).until(lambda _: self.js("return corpuscle.scene.chosen") is not None)
         self.assertEqual(self.classes[self.class_of(self.js("return corpuscle.scene.chosen"))]["name"], "fa1")
 
     def test_without_trials_it_has_no_figure_of_them(self):
@@ -348,7 +348,7 @@ class OnASkin(SkinPage):
                 for theme in self.themes():
                     self.assertLessEqual(self.js("return document.documentElement.scrollWidth"), width)
                     self.assertEqual(overfull_bars(self.browser), [])
-                    self.browser.save_screenshot(str(OUT / f"skin-{width}-{theme}.png"))
+                    save_picture(self.browser, f"skin-{width}-{theme}.png")
                     # on a telephone, one map is swiped to the next, so the first must be complete
                     right = self.js("return document.querySelector('.skin-map').getBoundingClientRect().right")
                     self.assertLessEqual(right, width)
@@ -408,7 +408,7 @@ class HostileNamesOnASkin(SkinPage):
         first = self.data["summary"]["first_spikes"][0]
         canvas, x, y = self.place(first["afferent_index"])
         ActionChains(self.browser, duration=50).move_to_element_with_offset(canvas, x, y).perform()
-        WebDriverWait(self.browser, 20).until(lambda _: HOSTILE in self.browser.find_element(By.ID, "unit").text)
+        waiting(self.browser, 20).until(lambda _: HOSTILE in self.browser.find_element(By.ID, "unit").text)
 
 
 class WithoutSpikeTimes(SkinPage):
@@ -531,7 +531,7 @@ class TrialsOnASkin(SkinPage):
             with self.screen(390, 844, 2):
                 self.assertEqual(self.js("return document.documentElement.scrollWidth"), 390)
                 self.assertGreater(self.js("return document.querySelector('#trials .plot').clientWidth"), 0.85 * 390)
-                self.browser.save_screenshot(str(OUT / f"skin-trials-phone-{theme}.png"))
+                save_picture(self.browser, f"skin-trials-phone-{theme}.png")
         self.browser.execute_cdp_cmd("Emulation.setEmulatedMedia", {"features": []})
 
 
