@@ -1,5 +1,5 @@
 # The commands of the README. Each installs the packages it needs (setup/packages).
-.PHONY: demo build page test test-under-load bench fuzz format lint install pictures notebooks reproduction deb setup-run setup-page setup-test setup-bench setup-python setup-deb release asan asan-readers sanitize clean
+.PHONY: demo build page test test-under-load bench fuzz format lint install pictures notebooks reproduction deb setup-run setup-page setup-test setup-tests setup-bench setup-python setup-deb release asan asan-readers sanitize clean
 
 FUZZ_SECONDS ?= 600
 PREFIX ?= /usr/local
@@ -32,7 +32,7 @@ configure_asan = cmake --preset asan -D CMAKE_CXX_FLAGS_RELWITHDEBINFO="-O1 $(li
 # Under the sanitizers the tests of everything that reads files, messages and links, and all fuzzers; `make sanitize` runs all tests.
 # The test of the page server under load takes a minute in which the processors are almost idle: they build the page and the sanitized programs
 # meanwhile, at the lowest priority, so that the delays that it measures are not theirs. If it fails, the other tests still run.
-test: setup-test setup-page release
+test: setup-tests release
 	CMAKE_BUILD_PARALLEL_LEVEL=$$(nproc) $(MAKE) --jobs=3 priority='nice -n 19' lines= test-under-load page asan-readers; first=$$?; \
 	ctest --test-dir build/release --output-on-failure -j 3 -LE load && \
 	ctest --test-dir build/asan --output-on-failure -j 3 -LE once -R '^reader-tests' && \
@@ -123,6 +123,10 @@ setup-page:
 
 setup-test:
 	@setup/install run test
+
+# All that `make test` needs: apt-get reads its lists and ends an installation once instead of three times.
+setup-tests:
+	@setup/install run test page python
 
 setup-bench:
 	@setup/install run test bench

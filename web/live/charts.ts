@@ -52,7 +52,7 @@ export class Charts {
             const offset = first - this.session.rows.length;
             return Array.from({length: count}, (_, k) => ({series: name, label: `${name}#${k + 1}`, colour: classColour(name), spikes: trains[offset + k], group: name}));
         });
-        return new RasterPanel({host: this.host, name: "skin", title: [`spikes of the ${population}`], about: "spikes of the skin", height: 210, rows, isGrouped: true, isBottom: true,
+        return new RasterPanel({host: this.host, name: "skin", title: [`spikes: ${population.replace(/,/g, ", ")}`], about: "spikes of the skin", height: 210, rows, isGrouped: true, isBottom: true,
                                 series: classes.map(({name}) => ({name, colour: classColour(name), width: 3})), clock: this.session.force.clock, phases: []});
     }
 
