@@ -25,9 +25,10 @@ def trains(path, column="afferent"):
 
 class LivePage(Pages):
     ROWS = "sa1,sa1-nerve,sa1-circuit"
+    SKIN = "fingertip"
 
     def setUp(self):
-        self.start(f"#rows={self.ROWS}&rate=2000&skin=fingertip")
+        self.start(f"#rows={self.ROWS}&rate=2000&skin={self.SKIN}")
 
     def start(self, link="", **screen):
         self.open(PAGE, link, **screen)

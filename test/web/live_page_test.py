@@ -232,6 +232,7 @@ class Controls(LivePage):
 
 class Chip(LivePage):
     ROWS = "sa1-circuit"
+    SKIN = "none"
 
     def test_blocks_show_their_voltages(self):
         self.js("document.querySelector('.row-card details').open = true")
@@ -290,6 +291,7 @@ class Chip(LivePage):
 
 class Recordings(LivePage):
     ROWS = "sa1,sa1-nerve"
+    SKIN = "none"
 
     def load(self, path):
         self.js("document.getElementById('recordings').open = true")
