@@ -1,7 +1,7 @@
 // The parts that all pages have: heading, command, notes, toolbar of the time axis, sections, versions.
 
 import {Child, append, h} from "./base/dom";
-import {onThemeChange} from "./base/colours";
+import {onAppearanceChange} from "./base/colours";
 import {fixedText} from "./base/text";
 import type {PageData} from "./data/document";
 import {connectKeys} from "./plot/pointer";
@@ -114,7 +114,7 @@ export function timeToolbar(host: Element, view: View, ...first: Child[]): HTMLE
     });
     view.onCursor(() => { now.textContent = view.cursor === null ? "" : `t = ${fixedText(view.cursor, (view.b - view.a) / 2000)}`; });
     connectKeys(view);
-    onThemeChange(() => view.request());
+    onAppearanceChange(() => view.request());
     host.append(bar);
     return bar;
 }

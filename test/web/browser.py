@@ -38,6 +38,7 @@ PREFIX = {"f": 1e-15, "p": 1e-12, "n": 1e-9, "µ": 1e-6, "m": 1e-3, "": 1, "k": 
 
 CORPUSCLE, OUT = pathlib.Path(sys.argv[1]).resolve(), pathlib.Path(sys.argv[2]).resolve()
 ROOT = pathlib.Path(__file__).resolve().parents[2]
+PICTURES = os.environ.get("CORPUSCLE_PICTURES")
 
 
 def respond(name, *arguments):
@@ -154,14 +155,14 @@ def with_default_settings(browser):
 
 
 def waiting(browser, seconds):
-    """Waits for a condition. It asks ten times a second, because a page that is alive uses the processor while a test waits."""
+    """waiting(browser, 20).until(condition): fails after 20 s. It asks ten times a second, because a live page uses the processor while a test waits."""
     return WebDriverWait(browser, seconds, poll_frequency=0.1)
 
 
 def save_picture(browser, name):
-    """Saves a picture of the window for inspection, if somewhere to save it is set."""
-    if "CORPUSCLE_PICTURES" in os.environ:
-        browser.save_screenshot(os.path.join(os.environ["CORPUSCLE_PICTURES"], name))
+    """Saves a picture of the window in the directory CORPUSCLE_PICTURES, if this is set."""
+    if PICTURES:
+        pathlib.Path(PICTURES, name).write_bytes(browser.get_screenshot_as_png())
 
 
 def missing_values(browser):
@@ -291,8 +292,8 @@ class Page(unittest.TestCase):
             self.browser.execute_cdp_cmd("Emulation.clearDeviceMetricsOverride", {})
 
     def screenshot(self, name):
-        """Saves a picture of the complete page, if pictures are wanted."""
-        if "CORPUSCLE_PICTURES" not in os.environ:
+        """Saves a picture of the complete page in the same directory."""
+        if not PICTURES:
             return
         self.browser.set_window_size(1200, 900)
         height = self.js("scrollTo(0, 0); return document.documentElement.scrollHeight")
@@ -303,5 +304,6 @@ class Page(unittest.TestCase):
 
 
 def run_tests():
-    OUT.mkdir(parents=True, exist_ok=True)
+    for folder in filter(None, (OUT, PICTURES)):
+        pathlib.Path(folder).mkdir(parents=True, exist_ok=True)
     unittest.main(module="__main__", argv=[sys.argv[0], *sys.argv[3:]], verbosity=2)

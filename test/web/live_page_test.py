@@ -163,6 +163,13 @@ class Controls(LivePage):
         ActionChains(self.browser).move_to_element_with_offset(self.browser.find_element(By.CSS_SELECTOR, "#skin-view canvas"), -20, 10).click().perform()
         self.until(lambda: self.js("return corpuscle.drawn") > 0)
 
+    def test_a_paused_page_is_sharp_on_a_screen_of_another_density_of_pixels(self):
+        self.pause()
+        for ratio in (1, 3):
+            self.browser.execute_cdp_cmd("Emulation.setDeviceMetricsOverride", {"width": 1400, "height": 900, "deviceScaleFactor": ratio, "mobile": False})
+            self.set_theme(False)  # an emulated screen tells the page of its density only with its media
+            self.until(lambda: self.js("return [...document.querySelectorAll('canvas')].map((one) => one.width / one.clientWidth)") == [ratio] * 4)
+
     def test_a_restart_ends_a_pause(self):
         self.browser.find_element(By.ID, "pause").click()
         self.until(lambda: self.text("pause") == "Go on")

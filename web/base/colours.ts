@@ -39,17 +39,20 @@ function colourOf(css: string): Colour {
     return colour;
 }
 
-/// Calls `redraw` when the theme changes, or when the page is printed in the light theme. Returns a function that ends this.
-export function onThemeChange(redraw: () => void): () => void {
-    const renew = () => {
+/// Calls `redraw` when the theme changes, when the page is printed in the light theme, and on a screen of another density of pixels. Returns a function
+/// that ends this.
+export function onAppearanceChange(redraw: () => void): () => void {
+    const ended = new AbortController(), {signal} = ended, renew = () => {
         known.clear();
         redraw();
     };
-    const scheme = matchMedia("(prefers-color-scheme: dark)"), observer = new MutationObserver(renew);
-    scheme.addEventListener("change", renew);
+    const observer = new MutationObserver(renew);
+    const watchPixels = () => matchMedia(`(resolution: ${devicePixelRatio}dppx)`).addEventListener("change", () => { watchPixels(); renew(); }, {once: true, signal});
+    matchMedia("(prefers-color-scheme: dark)").addEventListener("change", renew, {signal});
     observer.observe(document.documentElement, {attributeFilter: ["class", "data-theme"]});
+    watchPixels();
     return () => {
-        scheme.removeEventListener("change", renew);
+        ended.abort();
         observer.disconnect();
     };
 }

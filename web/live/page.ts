@@ -1,7 +1,7 @@
 // The live page: a skin to press, the afferents that feel it, and what their nerves and chips do.
 
 import type {NumberArray} from "../base/arrays";
-import {onThemeChange} from "../base/colours";
+import {onAppearanceChange} from "../base/colours";
 import {append, chooser, download, fill, h} from "../base/dom";
 import {onLinkChange} from "../base/link";
 import {quantity} from "../base/text";
@@ -69,7 +69,7 @@ class LivePage {
         append(document.body, h("header", {}, h("h1", {}, "Press a skin"), h("span", {class: "program"}, `corpuscle ${this.catalogue.version}, computed in ${engine.place}`)), this.toolbar(), this.message, main);
         folded(document.body, "recordings", "Replay a recording", "", "", (host) => host.append(new Recording(this.session).root));
         connectKeys(this.charts.view);
-        onThemeChange(() => { this.skinView.redraw(); this.charts.view.request(); });
+        onAppearanceChange(() => { this.skinView.redraw(); this.charts.view.request(); });
     }
 
     private toolbar(): HTMLElement {

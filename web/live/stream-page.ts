@@ -1,7 +1,7 @@
 // The page of a stream: the forces of a sensor and the spikes of its afferents, as `corpuscle stream --serve` sends them.
 
 import {messageOf, NumberArray} from "../base/arrays";
-import {onThemeChange} from "../base/colours";
+import {onAppearanceChange} from "../base/colours";
 import {append, h} from "../base/dom";
 import {connectKeys} from "../plot/pointer";
 import {SkinScene} from "../skin/scene";
@@ -34,7 +34,7 @@ class StreamPage implements LiveSource {
             h("div", {class: "toolbar"}, h("button", {type: "button", id: "follow", onclick: () => this.charts.followAgain()}, "Follow"), this.status),
             h("main", {class: "live"}, h("section", {class: "press"}, h("div", {class: "skin-view", id: "skin-view"}, this.mapHost)), h("section", {class: "responses"}, this.chartHost)));
         connectKeys(this.charts.view);
-        onThemeChange(() => { this.scene?.renew(); this.charts.view.request(); });
+        onAppearanceChange(() => { this.scene?.renew(); this.charts.view.request(); });
         new ResizeObserver(() => this.resize()).observe(this.mapHost);
         const socket = new WebSocket(url);
         socket.binaryType = "arraybuffer";

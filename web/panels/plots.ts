@@ -1,7 +1,7 @@
 // Plots of studies and fits as panels, and as small pictures.
 
 import {numbersOf} from "../base/arrays";
-import {onThemeChange, resolved} from "../base/colours";
+import {onAppearanceChange, resolved} from "../base/colours";
 import {h} from "../base/dom";
 import {label} from "../base/label";
 import type {PlotData} from "../data/study";
@@ -33,7 +33,7 @@ export function thumbnail(plot: PlotData): HTMLCanvasElement {
                                                    y: isRaster ? new Float64Array(curve.x.length).fill(all.length - k) : Float64Array.from(curve.y, (v) => positionOn(y, v))}));
     const draw = () => paintThumbnail(canvas, curves, isRaster);
     new ResizeObserver(draw).observe(canvas);
-    onThemeChange(draw);
+    onAppearanceChange(draw);
     return canvas;
 }
 

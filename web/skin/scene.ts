@@ -1,6 +1,6 @@
 // The part of the skin that all maps show, and the chosen mark.
 
-import {onThemeChange} from "../base/colours";
+import {onAppearanceChange} from "../base/colours";
 import {h, pixelRatio} from "../base/dom";
 import {Box, SkinGeometry, boxOf, grown, joined} from "./geometry";
 import {Levels, Surface} from "./surface";
@@ -30,7 +30,7 @@ export class SkinScene {
         const contents = [boxOf(geometry.marks), ...geometry.outline.map((one) => boxOf(one))].reduce(joined, grown(sites, geometry.side / 2));
         this.all = this.box = grown(contents, 0.03 * Math.max(contents[2] - contents[0], contents[3] - contents[1]));
         this.surface = new Surface(this, force);
-        this.remove = onThemeChange(() => this.renew());
+        this.remove = onAppearanceChange(() => this.renew());
     }
 
     /// The radius of an active mark, pixels: equal on all maps.
