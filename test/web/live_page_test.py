@@ -76,6 +76,7 @@ class Settings(LivePage):
         self.open_row(0)
         self.set_number("f_B", "-5")
         self.until(lambda: "f_B" in self.text("message"))
+        self.wait(0.4)  # a change is in the link after 0.2 s
         self.assertNotIn("f_B", self.js("return location.hash"))
 
     def test_a_chip_has_another_temperature(self):
@@ -117,6 +118,7 @@ class Settings(LivePage):
         self.until(lambda: "radius" in self.text("message"))
         value = "return document.querySelector('.skin-controls [data-parameter=radius] input[type=number]').value"
         self.assertEqual(self.js(value), "0.005")
+        self.wait(0.4)
         self.assertNotIn("radius", self.js("return location.hash"))
         self.set_number("radius", "0.004")
         self.until(lambda: "radius" in self.js("return location.hash"))
@@ -231,9 +233,10 @@ class Controls(LivePage):
         self.assertEqual(self.text("message"), "")
         self.assertGreater(self.counts()[0], 1)
         change("azimuth", "30")
+        self.until(lambda: "azimuth" in self.browser.current_url)
         change("tilt", "0")
         self.until(lambda: self.js("return corpuscle.session.contactValues.get('azimuth')") == 0)
-        self.assertNotIn("azimuth", self.browser.current_url)
+        self.until(lambda: "azimuth" not in self.browser.current_url)
         self.assertTrue(self.js("return document.querySelector('.skin-controls details').open"))
 
 
