@@ -1,7 +1,7 @@
 # The commands of the README. Each installs the packages it needs (setup/packages).
 .PHONY: demo build page test test-under-load page-and-readers bench fuzz format lint install pictures notebooks reproduction deb setup-run setup-page setup-test setup-tests setup-bench setup-python setup-deb release asan asan-readers sanitize clean
 
-# A job per processor. With Ninja's default of three on two processors, a build takes 5 % longer and the tests 10 %.
+# A job per processor. A third one on two processors makes a build 5 % longer and the tests 10 %.
 export CMAKE_BUILD_PARALLEL_LEVEL ?= $(shell nproc)
 export CTEST_PARALLEL_LEVEL ?= $(shell nproc)
 
