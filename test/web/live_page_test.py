@@ -9,7 +9,7 @@ from live_page import *
 
 class Press(LivePage):
     def test_a_press_by_pointer_gives_the_spikes_of_the_program(self):
-        self.press(1.0)
+        self.press(1.5)
         self.pause()
         spikes, force = trains(self.download("save", "spikes.csv")), OUT / "force.csv"
         shutil.copy(self.download("save-force", "force.csv"), force)
@@ -80,15 +80,19 @@ class Settings(LivePage):
         self.assertNotIn("f_B", self.js("return location.hash"))
 
     def test_a_chip_has_another_temperature(self):
-        self.follow("#rows=sa1,sa1-nerve,sa1-circuit&rate=2000&skin=fingertip")
-        self.js("document.querySelectorAll('.row-card details')[2].open = true")
+        self.follow("#rows=sa1-circuit&rate=2000&skin=fingertip")
+        self.js("document.querySelector('.row-card details').open = true")
         self.until(lambda: self.all('.parameter[data-parameter="temp"]'))
-        self.press(0.5)
-        before = self.counts()[2]
-        self.set_number("temp", "60")
-        self.until(lambda: "temp%3D60" in self.js("return location.hash"))
-        self.press(0.5)
-        self.assertGreater(self.counts()[2], before)
+        warm = self.settled_interval()
+        self.set_number("temp", "0")
+        self.until(lambda: "temp%3D0" in self.js("return location.hash"))
+        self.assertGreater(self.settled_interval(), 1.05 * warm)  # 144 and 133 ms
+
+    def settled_interval(self):
+        """The time (s) between the last two spikes of the first row in a press that is so long that the adaptation has ended."""
+        self.press(1.2)
+        times = self.js("return corpuscle.session.rows[0].train.times.slice(-2)")
+        return times[1] - times[0]
 
     def test_the_page_follows_a_link_in_the_address_bar(self):
         self.follow("#rows=sa1~k_A=4u&force=2.5&skin=none")
@@ -147,7 +151,7 @@ class Controls(LivePage):
             AudioBufferSourceNode.prototype.start = function (...when) { ++corpuscle.clicks; return start.apply(this, when); };""")
         self.browser.find_element(By.ID, "sound").click()
         self.until(lambda: self.text("sound") == "Sound on")
-        self.press(0.8)
+        self.press(1.5)
         self.assertGreater(self.counts()[0], 3)
         self.assertEqual(self.js("return corpuscle.clicks"), self.counts()[0])
 
@@ -229,7 +233,7 @@ class Controls(LivePage):
         self.js("document.querySelector('.skin-controls details').open = true; document.getElementById('shear').click()")
         change("tilt", "10")
         self.until(lambda: self.js("return document.getElementById('shear').disabled"))
-        self.press(0.4)
+        self.press(1)
         self.assertEqual(self.text("message"), "")
         self.assertGreater(self.counts()[0], 1)
         change("azimuth", "30")
