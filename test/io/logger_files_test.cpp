@@ -4,11 +4,11 @@
 #include <zlib.h>
 
 #include <cstdlib>
-#include <ctime>
 
 #include "io/table/archive.hpp"
 #include "support/file_writers.hpp"
 #include "support/loaded_recording.hpp"
+#include "support/processor_time.hpp"
 
 namespace corpuscle {
 namespace {
@@ -197,9 +197,7 @@ TEST(LoggerFiles, TheTimeToReadAFileIsLinearInItsSize) {
     const TemporaryFolder folder;
     const auto seconds = [&](const std::string& text) {
         folder.write("x.json", text);
-        const auto begin = std::clock();
-        static_cast<void>(try_load_recording(folder / "x.json", {}, 4096));
-        return static_cast<double>(std::clock() - begin) / CLOCKS_PER_SEC;
+        return test::processor_time([&] { static_cast<void>(try_load_recording(folder / "x.json", {}, 4096)); });
     };
     const auto columns = [](int rows) {  // as the default of pandas' to_json()
         std::string times, forces;

@@ -3,8 +3,6 @@
 import concurrent.futures
 import io
 import multiprocessing
-import os
-import pathlib
 import signal
 import subprocess
 import sys
@@ -13,6 +11,7 @@ import time
 import unittest
 
 import corpuscle
+from support import processor_seconds
 
 RC = "RC\nv1 in 0 dc 1 sin(0 1 1k)\nr1 in out 1k\nc1 out 0 1u\n"
 
@@ -46,12 +45,6 @@ class Threads(unittest.TestCase):
         other.join()
         self.assertGreater(stop - start, 0.05, "the run is too short for this test")
         self.assertGreater(sum(start < t < stop for t in ticks), 5)
-
-
-def processor_seconds(pid):
-    """The processor time of a process so far. Unlike the time of a clock, it does not depend on other processes."""
-    fields = pathlib.Path(f"/proc/{pid}/stat").read_text().rsplit(")", 1)[1].split()
-    return (int(fields[11]) + int(fields[12])) / os.sysconf("SC_CLK_TCK")
 
 
 class Processes(unittest.TestCase):

@@ -88,7 +88,7 @@ class TextsWithNul(unittest.TestCase):
 
 class Sizes(unittest.TestCase):
     def test_counts_that_no_machine_can_hold_are_refused_at_once(self):
-        start = time.monotonic()
+        start = time.process_time()
         self.assertIn("--copies 4294967295: the largest number is 1000000", error_of(corpuscle.respond, "press", afferent="sa1", copies=2**32 - 1))
         self.assertIn("too many", error_of(corpuscle.respond, np.zeros((2, 5000)), 1000, "sa1", copies=10**6))
         self.assertIn("1 to 4194304 sites", error_of(corpuscle.LiveSkin, "sa1", channels=2**32 - 1))
@@ -97,7 +97,7 @@ class Sizes(unittest.TestCase):
         for call in (lambda: corpuscle.LiveSkin("grid 100000x100000"), lambda: corpuscle.grid(10**9, 10**9).respond("press"),
                      lambda: corpuscle.grid(-1, 3).respond("press"), lambda: corpuscle.grid("a", None).respond("press")):
             error_of(call)
-        self.assertLess(time.monotonic() - start, 10)
+        self.assertLess(time.process_time() - start, 10)
 
     def test_bins_that_no_machine_can_hold_are_refused(self):
         response = corpuscle.respond(press(), 1000, "sa1")
