@@ -6,16 +6,7 @@ import unittest
 
 import corpuscle
 import numpy as np
-from support import command_line, press
-
-
-def error_of(function, *arguments, **options):
-    """The text of the InputError that a call raises."""
-    try:
-        function(*arguments, **options)
-    except corpuscle.InputError as error:
-        return str(error)
-    raise AssertionError("there was no error")
+from support import command_line, error_of, press
 
 
 class Numbers(unittest.TestCase):

@@ -6,12 +6,11 @@ import multiprocessing
 import signal
 import subprocess
 import sys
-import threading
 import time
 import unittest
 
 import corpuscle
-from support import processor_seconds
+from support import processor_seconds, ticks_during
 
 RC = "RC\nv1 in 0 dc 1 sin(0 1 1k)\nr1 in out 1k\nc1 out 0 1u\n"
 
@@ -29,22 +28,9 @@ class Threads(unittest.TestCase):
                 self.assertEqual(result["v(vf)"].tolist(), expected)
 
     def test_other_threads_of_python_go_on_during_a_run(self):
-        ticks, done = [], threading.Event()
-
-        def tick():
-            while not done.is_set():
-                ticks.append(time.monotonic())
-                time.sleep(0.001)
-
-        other = threading.Thread(target=tick)
-        other.start()
-        start = time.monotonic()
-        corpuscle.circuit("sa1-circuit").tran()
-        stop = time.monotonic()
-        done.set()
-        other.join()
-        self.assertGreater(stop - start, 0.05, "the run is too short for this test")
-        self.assertGreater(sum(start < t < stop for t in ticks), 5)
+        duration, ticks = ticks_during(lambda: corpuscle.circuit("sa1-circuit").tran())
+        self.assertGreater(duration, 0.05, "the run is too short for this test")
+        self.assertGreater(ticks, 5)
 
 
 class Processes(unittest.TestCase):

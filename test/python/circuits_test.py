@@ -11,21 +11,12 @@ import unittest
 
 import corpuscle
 import numpy as np
-from support import ROOT, command_line
+from support import ROOT, command_line, error_of
 
 RC = "\n".join(["RC low-pass", ".param r=1k", "v1 in 0 dc 1 ac 1 pulse(0 1 0 1n 1n 1 2)", "r1 in out {r}", "c1 out 0 1u", ".tran 10u 5m",
                 ".meas tran tau when v(out)=0.632120559", ".end", ""])
 NO_SOLUTION = "a current that no voltage takes\n.param a=4\ni1 0 x 1\nb1 x 0 i={a}*(v(x)*v(x)+0.5)\n.op\n"
 DECKS = sorted(glob.glob(f"{ROOT}/test/circuit/decks/**/*.cir", recursive=True)) + [f"{ROOT}/circuits/divider.cir", f"{ROOT}/circuits/spiker.cir"]
-
-
-def error_of(function, *arguments, **options):
-    """The text of the InputError that a call raises."""
-    try:
-        function(*arguments, **options)
-    except corpuscle.InputError as error:
-        return str(error)
-    raise AssertionError("there was no error")
 
 
 def finite(values):

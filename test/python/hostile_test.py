@@ -10,16 +10,7 @@ import warnings
 
 import corpuscle
 import numpy as np
-from support import ROOT, press
-
-
-def error_of(function, *arguments, **options):
-    """The text of the InputError that a call raises."""
-    try:
-        function(*arguments, **options)
-    except corpuscle.InputError as error:
-        return str(error)
-    raise AssertionError("there was no error")
+from support import ROOT, error_of, press
 
 
 class TypesOfArguments(unittest.TestCase):

@@ -6,13 +6,12 @@ import os
 import signal
 import subprocess
 import sys
-import threading
 import time
 import unittest
 
 import corpuscle
 import numpy as np
-from support import press
+from support import press, ticks_during
 
 
 def simulate(seed):
@@ -26,22 +25,9 @@ class Threads(unittest.TestCase):
             self.assertEqual(list(pool.map(simulate, range(8))), expected)
 
     def test_other_threads_of_python_go_on_during_a_run(self):
-        ticks, done = [], threading.Event()
-
-        def tick():
-            while not done.is_set():
-                ticks.append(time.monotonic())
-                time.sleep(0.001)
-
-        other = threading.Thread(target=tick)
-        other.start()
-        start = time.monotonic()
-        corpuscle.respond(np.full(200000, 2.0), 1000, "sa1", copies=3000, threads=1)
-        stop = time.monotonic()
-        done.set()
-        other.join()
-        self.assertGreater(stop - start, 0.05, "the run is too short for this test")
-        self.assertGreater(sum(start < t < stop for t in ticks), 5)
+        duration, ticks = ticks_during(lambda: corpuscle.respond(np.full(200000, 2.0), 1000, "sa1", copies=3000, threads=1))
+        self.assertGreater(duration, 0.05, "the run is too short for this test")
+        self.assertGreater(ticks, 5)
 
     def test_the_number_of_threads_does_not_change_the_spikes(self):
         results = [corpuscle.respond(press(), 1000, copies=300, spread={"sa1.f_B": "10%"}, threads=n).times.tobytes() for n in (0, 1, 2, 7)]

@@ -14,7 +14,7 @@ import unittest
 
 import corpuscle
 import numpy as np
-from support import command_line, processor_seconds
+from support import command_line, error_of, processor_seconds
 
 GRID = """title = "two axes"
 afferent = "sa1"
@@ -29,15 +29,6 @@ list = ["20Hz", "40Hz"]
 """
 CHIPS = 'afferent = "sa1-circuit"\nsamples = 1000\n[[vary]]\nwhat = "mismatch"\n'
 CORNERS = 'netlist = "bias.cir"\nmeasures = ["v(b)"]\n[[vary]]\nwhat = "r1"\nlist = ["1k", "3k"]\n[[vary]]\nwhat = "corner"\nlist = ["tt", "ss"]\n'
-
-
-def error_of(function, *arguments, **options):
-    """The text of the InputError that a call raises."""
-    try:
-        function(*arguments, **options)
-    except corpuscle.InputError as error:
-        return str(error)
-    raise AssertionError("there was no error")
 
 
 class InAFolder(unittest.TestCase):
