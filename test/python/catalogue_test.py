@@ -4,7 +4,6 @@ import ast
 import inspect
 import json
 import os
-import re
 import unittest
 
 import corpuscle
