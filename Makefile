@@ -103,6 +103,10 @@ CORPUSCLE_DATA ?= ../shared/data
 draw = /usr/bin/python3 doc/picture.py $(corpuscle)
 # Those of doc/schematics.md; on Debian 12 they also need: apt-get install xvfb xauth
 schematics = sa1 $(addprefix parts/, transducer amplifier bias invb invc ccvs high_pass rectifier_sa rectifier_fa summer oscillator trigger currents)
+# The blocks of the chips; those of FA-I that SA-I has, too, are drawn once.
+sa1_blocks = bias fsr transducer ccvs hpb hpc rectb rectc summer cco
+fa1_blocks = rect cco
+draw_blocks = for block in $(2); do $(corpuscle) export $(1)-circuit --for svg --block $$block --overwrite -o doc/pictures/schematics/drawn-$(1)-$$block.svg || exit 1; done
 pictures: release page
 	$(draw) doc/press.png $(touched)
 	/usr/bin/python3 doc/picture.py build/page/press.html doc/pictures/live-page.png
@@ -115,8 +119,9 @@ pictures: release page
 	$(draw) doc/pictures/eskin.png $(CORPUSCLE_DATA)/fbg_eskin_press/fbg_press_S6_T16.csv --rate 100Hz --scale 40 --layout $(CORPUSCLE_DATA)/fbg_eskin_press/sensor_positions.csv
 	$(draw) doc/pictures/fabric.png $(CORPUSCLE_DATA)/fabric_slide_cpm/Board10mm_F150_V-5mmps_0.csv --time-unit ms --channel 3-18 --scale 0.01
 	for cell in $(schematics); do /usr/bin/python3 doc/schematic_picture.py circuits/schematics/$$cell.sch doc/pictures/schematics/$$(basename $$cell).svg || exit 1; done
-	$(corpuscle) export sa1-circuit --for svg -o doc/pictures/schematics/drawn-sa1.svg
-	$(corpuscle) export sa1-circuit --for svg --block summer -o doc/pictures/schematics/drawn-summer.svg
+	for chip in sa1 fa1; do $(corpuscle) export $$chip-circuit --for svg --overwrite -o doc/pictures/schematics/drawn-$$chip.svg || exit 1; done
+	$(call draw_blocks,sa1,$(sa1_blocks))
+	$(call draw_blocks,fa1,$(fa1_blocks))
 
 # The notebooks with their pictures, in out/notebooks. `make test` runs two of them.
 notebooks: release

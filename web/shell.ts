@@ -63,6 +63,15 @@ export function section(host: Element, id: string, title: Child, about = "", col
 /// Draws the content of a folded section.
 const drawFold = new WeakMap<Element, () => void>();
 
+const PRINT_WIDTH = 700;  // of figures and tables, pixels; see shell.css
+
+/// Makes each table that is wider than the paper smaller.
+function fitTables() {
+    document.querySelectorAll<HTMLElement>(".scroll > table").forEach((table) => {
+        if (table.offsetWidth > PRINT_WIDTH) table.style.setProperty("zoom", String(PRINT_WIDTH / table.offsetWidth));
+    });
+}
+
 // At the import, so that views, which are made later, draw after this.
 addEventListener("beforeprint", () => {
     document.documentElement.classList.add("printing");
@@ -71,9 +80,11 @@ addEventListener("beforeprint", () => {
         node.dataset.closed = "";
         drawFold.get(node)!();
     });
+    fitTables();
 });
 addEventListener("afterprint", () => {
     document.documentElement.classList.remove("printing");
+    document.querySelectorAll<HTMLElement>(".scroll > table").forEach((table) => table.style.removeProperty("zoom"));
     document.querySelectorAll<HTMLDetailsElement>("details.fold[data-closed]").forEach((node) => {
         node.open = false;
         delete node.dataset.closed;

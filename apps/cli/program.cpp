@@ -104,7 +104,10 @@ int run_program(const std::string& about, const std::string& first_steps, const 
                 const char* const* argv) {
     std::signal(SIGXFSZ, SIG_IGN);  // exceeding the file size limit is a write error
     CommonArguments common;
-    common.command = quote_command(argc, argv, false), common.complete_command = quote_command(argc, argv, true);
+    std::vector<std::string> typed(argv + 1, argv + argc);
+    if (verbs.size() == 1 && !typed.empty() && typed[0] != verbs[0].name)
+        typed.insert(typed.begin(), verbs[0].name);  // corpuscle-study fig4
+    common.command = quote_command(typed, false), common.complete_command = quote_command(typed, true);
     common.words = normalize_help({argv + 1, argv + argc});
     if (common.words[0] == "__man") return exit_status(write_man_pages(about, first_steps, verbs, common));
     for (const auto& verb : verbs)  // completed by the other program

@@ -23,7 +23,7 @@ struct OperatingState {
     struct Block {
         std::string name;  ///< of the subcircuit; "top level" for the elements outside of subcircuits
         double power = 0;  ///< W, dissipated
-        std::vector<Node> nodes = {};
+        std::vector<Node> nodes = {};      ///< inside it, and at the terminals of its devices
         std::vector<Device> devices = {};  ///< without the sources that deliver power
     };
     double time = 0;               ///< s since its start
@@ -39,7 +39,7 @@ struct SettableValue {
     std::string name;  ///< as an override has it: "temp", "summer.N3B.w"
     Kind kind = Kind::number;
     std::string unit = {};
-    double value = 0;       ///< of a number, in `unit`
+    double value = 0;       ///< of a number, in `unit`; NaN: none, such as the seed of a circuit without mismatch
     std::string text = {};  ///< of a choice, or of an array: "8x4"
     std::vector<std::string> choices = {};
     std::string block = {};  ///< the subcircuit; "" for the whole circuit

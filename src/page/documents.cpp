@@ -1,5 +1,7 @@
 #include "page/documents.hpp"
 
+#include <cmath>
+
 #include "run/catalogue/catalogue_document.hpp"
 #include "run/compare/implementation_comparison.hpp"
 
@@ -38,7 +40,7 @@ Json document_of(std::span<const SettableValue> values) {
     for (const auto& v : values) {
         const bool is_number = v.kind == SettableValue::Kind::number;
         Json row = {{"name", v.name}, {"kind", kinds[static_cast<int>(v.kind)]}, {"unit", v.unit}};
-        row["value"] = is_number ? Json(v.value) : Json(v.text);
+        row["value"] = !is_number ? Json(v.text) : std::isnan(v.value) ? Json() : Json(v.value);
         if (!v.choices.empty()) row["choices"] = v.choices;
         row["block"] = v.block, row["description"] = v.description;
         out.push_back(std::move(row));

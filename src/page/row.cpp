@@ -18,6 +18,13 @@ Result<void> refuse_path(const std::string& afferent) {
     return bad_input(fmt::format("'{}' is the path of a file; {}", afferent, file_afferent_advice(afferent)));
 }
 
+/// True if an afferent can go on from a state of another. Words of more bits, for example, do not fit into a converter of fewer.
+bool accepts(const Afferent& afferent, State state) {
+    std::vector<Spike> spikes;
+    ResponseBlock response{spikes};
+    return static_cast<bool>(afferent.respond({}, state, response));
+}
+
 }  // namespace
 
 std::string file_afferent_advice(const std::string& file) {
@@ -86,7 +93,7 @@ Result<bool> Row::change(std::vector<std::string> set, const SimulationOptions& 
     auto changed = request_;
     changed.set = std::move(set);
     auto next = TRY(make(std::move(changed), options, now));
-    const bool is_carried = error_.empty() && next.state_.format == state_.format;
+    const bool is_carried = error_.empty() && accepts(*next.afferent_, state_);
     if (is_carried) next.state_ = std::move(state_), next.origin_ = origin_;
     *this = std::move(next);
     return is_carried;

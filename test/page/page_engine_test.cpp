@@ -114,6 +114,17 @@ TEST(PageEngine, SaysWhetherAChangedRowGoesOnOrStartsAgain) {
     for (const double t : answer.numbers("time")) EXPECT_GE(t, 0.1);
 }
 
+/// The words of 12 bits of the digital systems do not fit into 8 bits.
+TEST(PageEngine, ARowWhoseStateDoesNotFitTheChangedSettingsStartsAgain) {
+    PageEngine engine;
+    ask_well(engine, R"({"request": "start", "rate": 10000, "rows": [{"afferent": "sa1-kim"}]})");
+    ask_well(engine, R"({"request": "advance", "samples": 10000, "force": 2})");
+    EXPECT_EQ(ask_well(engine, R"({"request": "set", "row": 0, "set": ["bits=8"]})")["state"], "restarted");
+    const auto answer = ask_well(engine, R"({"request": "advance", "samples": 10000, "force": 2})");
+    EXPECT_FALSE(answer["rows"][0].contains("error")) << answer["rows"][0].dump();
+    EXPECT_GT(answer["rows"][0]["spikes"].get<int>(), 0);
+}
+
 TEST(PageEngine, ALongRequestEndsWhenItIsStopped) {
     const std::string_view requests[] = {
         R"({"request": "monte-carlo", "afferent": "sa1-circuit", "chips": 1000, "rate": 100000, "stimulus": "sine", "stimulus_set": ["duration=100s"]})",
@@ -146,6 +157,7 @@ TEST(PageEngine, GivesTheOperatingStateOfACircuit) {
         dissipated += block["power"].get<double>(), nodes += block["nodes"].size();
         names.push_back(block["name"]);
         EXPECT_EQ(block["devices"].empty(), block["name"] == "top level") << block["name"] << ": it has only sources";
+        EXPECT_FALSE(block["nodes"].empty()) << block["name"] << ": the nodes at its terminals, at least";
     }
     EXPECT_NEAR(dissipated / state["power"].get<double>(), 1, 0.05) << "the rest charges capacitors";
     EXPECT_GT(nodes, 20U);

@@ -178,6 +178,26 @@ def overfull_bars(browser):
         .filter((one) => one.scrollHeight > one.clientHeight + 3 || one.scrollWidth > one.clientWidth + 3).map((one) => one.textContent)""")
 
 
+def unsaved_panels(browser):
+    """Panels whose data or drawing cannot be saved: without rows below the heading, or with an error."""
+    return browser.execute_script("""return Object.entries(corpuscle.panels).filter(([, {isShown}]) => isShown).map(([name, panel]) => {
+        try { return panel.csv().split("\\n").length < 3 || !panel.svg().startsWith("<svg") ? name : null; }
+        catch (error) { return `${name}: ${error}`; }
+    }).filter((one) => one !== null)""")
+
+
+def cropped_tables(browser):
+    """Tables that would be cut at the edge of the paper, and buttons over the headings of their table. Draws the page as for printing."""
+    browser.execute_cdp_cmd("Emulation.setEmulatedMedia", {"media": "print"})
+    browser.execute_script("dispatchEvent(new Event('beforeprint'))")
+    cropped = browser.execute_script("""return [...document.querySelectorAll(".scroll")].filter((one) => one.clientWidth > 0 &&
+        (one.firstChild.getBoundingClientRect().width > 701 || one.scrollHeight > one.clientHeight + 2)).map((one) => one.getAttribute("aria-label"))""")
+    browser.execute_script("dispatchEvent(new Event('afterprint'))")
+    browser.execute_cdp_cmd("Emulation.setEmulatedMedia", {"media": ""})
+    return cropped + browser.execute_script("""return [...document.querySelectorAll(".table")].filter((one) => one.clientWidth > 0 &&
+        one.querySelector(".save").getBoundingClientRect().bottom > one.querySelector("table").getBoundingClientRect().top).map((one) => one.textContent.slice(0, 40))""")
+
+
 class Page(unittest.TestCase):
     """A browser with one report open. No test may cause a message in the console or show a missing value."""
 

@@ -101,6 +101,40 @@ class Settings(LivePage):
         self.follow("#rows=none")
         self.assertEqual(self.js("return corpuscle.session.rows.length"), 0)
 
+    def test_a_refused_link_stays_in_the_address_bar_and_its_damaged_part_is_named(self):
+        self.follow("#rows=sa1&force=21&skin=none")
+        self.assertIn("damaged: its part force cannot be read", self.text("message"))
+        self.wait(0.4)  # a change is in the link after 0.2 s
+        self.assertIn("force=21", self.js("return location.hash"))
+
+    def test_a_copied_link_has_the_value_that_is_still_being_typed(self):
+        self.js("navigator.clipboard.writeText = (text) => { corpuscle.copied = text; return Promise.resolve(); }")
+        self.open_row(0)
+        field = self.browser.find_element(By.CSS_SELECTOR, '.parameter[data-parameter="f_B"] input[type=number]')
+        self.js("arguments[0].scrollIntoView({block: 'center'}); arguments[0].select()", field)
+        field.send_keys("33")
+        self.browser.find_element(By.ID, "copy-link").click()
+        self.until(lambda: self.js("return corpuscle.copied"))
+        self.assertIn("f_B=33Hz", urllib.parse.unquote(self.js("return corpuscle.copied")))
+
+    def test_a_comma_is_a_decimal_point(self):
+        self.open_row(0)
+        field = self.browser.find_element(By.CSS_SELECTOR, '.parameter[data-parameter="f_B"] input[type=number]')
+        self.js("arguments[0].scrollIntoView({block: 'center'}); arguments[0].select()", field)
+        field.send_keys("1,5", Keys.ENTER)
+        self.until(lambda: "f_B=1.5Hz" in urllib.parse.unquote(self.js("return location.hash")))
+
+    def test_a_link_with_all_sizes_of_a_chip_is_followed(self):
+        self.follow("#rows=sa1-circuit&skin=none")
+        self.js("document.querySelector('.row-card details').open = true")
+        self.until(lambda: self.all('.parameter[data-parameter="mismatch"]'))
+        self.assertEqual(self.js("return document.querySelector('.parameter[data-parameter=mismatch] input').value"), "", "without a seed the chip is nominal")
+        names = [one["name"] for one in self.js("return corpuscle.session.engine.request({request: 'settable', afferent: 'sa1-circuit'}).then(({head}) => head.settable)") if one["name"].endswith(".w")]
+        self.assertGreater(len(names), 100)
+        self.follow("#skin=none&rows=" + urllib.parse.quote("sa1-circuit~" + "~".join(f"{name}=1.01u" for name in names)))
+        self.assertEqual(self.text("message"), "")
+        self.assertEqual(self.js("return corpuscle.session.settings.rows[0].set.size"), len(names))
+
     def test_a_damaged_or_oversized_link_is_refused(self):
         for link in ("#rows=sa1~f_B", "#skin=..%2Fetc", "#rate=0", "#force=1e9", "#force=50", "#force=0", "#%", "#x=1", "#rows=" + "sa1," * 2000, "#rows=sa1~f_B%3D" + "9" * 200, "#rows=" + urllib.parse.quote(PAYLOAD)):
             self.follow(link)
@@ -137,8 +171,10 @@ class Settings(LivePage):
     def test_an_afferent_can_be_added_and_removed(self):
         self.js("const select = document.getElementById('add-row'); select.selectedIndex = [...select.options].findIndex(({text}) => text.startsWith('fa1-circuit')); select.dispatchEvent(new Event('change'))")
         self.until(lambda: len(self.counts()) == 3)
-        self.browser.find_element(By.CSS_SELECTOR, '[data-row="sa1"] .remove').click()
+        ActionChains(self.browser).double_click(self.browser.find_element(By.CSS_SELECTOR, '[data-row="sa1"] .remove')).perform()
         self.until(lambda: len(self.counts()) == 2)
+        self.wait(0.1)
+        self.assertEqual(len(self.counts()), 2, "a double click removes one row")
         self.assertIn("fa1-circuit", self.js("return corpuscle.session.rows.map(({info}) => info.name)"))
 
 
@@ -256,6 +292,8 @@ class Chip(LivePage):
         self.js("document.querySelector('#schematic .block[data-block=xsummer]').dispatchEvent(new MouseEvent('click', {bubbles: true}))")
         self.until(lambda: len(self.all("svg.schematic")) == 2 and self.all(".row-card .columns .schematic .device[data-device]"))
         self.assertGreater(len(self.all(".block-state tbody tr")), 1)
+        self.js("document.querySelector('#schematic .block[data-block=xbias]').dispatchEvent(new MouseEvent('click', {bubbles: true}))")
+        self.until(lambda: {"bp", "bn", "vdd"} <= set(self.texts_of(".block-state tbody th")))  # the nodes at its terminals
 
     def test_the_schematics_are_legible_and_scroll_in_their_panels(self):
         for width in (1300, 360):

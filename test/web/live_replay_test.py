@@ -87,6 +87,27 @@ class Times(Replays):
         self.assertIn("Nothing has fired since the start of this session, so spikes.csv has no spikes. The replay below has a button of its own", self.text("message"))
 
 
+class Settings(Replays):
+    ROWS = "sa1"
+
+    def test_after_a_change_of_the_settings_a_replay_can_be_simulated_again(self):
+        path = write_recording("changed.csv", 1000, 1000, press)
+        self.load_and_wait(path)
+        before, again = self.text("recording-status"), self.browser.find_element(By.ID, "replay-again")
+        self.settle()
+        self.assertFalse(again.is_displayed())
+        self.js("document.querySelector('.row-card details').open = true")
+        self.until(lambda: self.all('.parameter[data-parameter="k_A"]'))
+        self.js("const field = document.querySelector('.parameter[data-parameter=k_A] input[type=number]'); field.value = '5e-6'; field.dispatchEvent(new Event('change'))")
+        self.until(again.is_displayed)
+        again.click()
+        self.until(lambda: re.search("sa1 .* spikes", self.text("recording-status")) and self.text("recording-status") != before)
+        printed = program("respond", path, "--afferent", "sa1", "--set", "sa1.k_A=5u", "--out", OUT / "changed", "--overwrite")
+        self.assertTrue(printed)
+        self.assertIn(f"sa1 {len(trains(OUT / 'changed' / 'spikes.csv')['sa1'])} spikes", self.text("recording-status"))
+        self.assertFalse(again.is_displayed())
+
+
 class Files(Replays):
     def test_a_refused_file_clears_the_replay_before_it(self):
         self.load_and_wait(write_recording("left_right.csv", 500, 1000, press, channels=("left", "right")))

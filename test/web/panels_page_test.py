@@ -110,6 +110,39 @@ class Features(Page):
         interval = re.search(r", (\S+\s\S+) after the one before", tip)[1]
         self.assertAlmostEqual(si(interval), times[3] - times[2], delta=1e-3 * (times[3] - times[2]))
 
+    def raster_tip(self):
+        return waiting(self.browser, 20).until(lambda _: self.browser.find_element(By.CSS_SELECTOR, '[data-panel="raster"] .tip').text)
+
+    def test_a_tapped_spike_shows_its_time(self):
+        times = spike_times(self.data, "sa1")
+        with self.screen(390, 844, 2):
+            self.browser.execute_cdp_cmd("Emulation.setTouchEmulationEnabled", {"enabled": True, "maxTouchPoints": 2})
+            try:
+                self.plot("raster")
+                x, y = self.js("const {plot, area} = corpuscle.panels.raster, {left, top} = plot.getBoundingClientRect(); return [left + corpuscle.panels.raster.x(arguments[0]), top + area.y + area.h / 4]", times[3])
+                self.touch("touchStart", (x, y))
+                self.touch("touchEnd")
+                self.assertIn(f"at {times[3]:.6f}", self.raster_tip())
+                self.next_frame()
+                self.assertIn(f"at {times[3]:.6f}", self.raster_tip(), "it stays when the finger has left")
+            finally:
+                self.browser.execute_cdp_cmd("Emulation.setTouchEmulationEnabled", {"enabled": False})
+
+    def test_n_and_p_go_to_the_next_and_the_previous_spike_of_a_row(self):
+        times = spike_times(self.data, "fa1")
+        self.js("arguments[0].focus()", self.plot("raster"))
+        keys = lambda *names: ActionChains(self.browser).send_keys(*names).perform()
+        keys(Keys.ARROW_DOWN, "n", "n")  # the second row
+        self.assertIn(f"fa1: spike 2 of {len(times)} at {times[1]:.6f}", self.raster_tip())
+        self.assertEqual(self.js("return corpuscle.panels.raster.view.cursor"), times[1])
+        keys("p")
+        self.assertIn(f"at {times[0]:.6f}", self.raster_tip())
+        keys("p")  # there is none before
+        self.assertEqual(self.js("return corpuscle.panels.raster.view.cursor"), times[0])
+        self.js("corpuscle.setWindow(0, 0.1)")
+        keys("n")
+        waiting(self.browser, 20).until(lambda _: self.js("return corpuscle.window()")[1] > times[1])
+
     def test_a_mark_of_the_frequency_shows_its_value(self):
         times = spike_times(self.data, "fa1")
         plot, x = self.at_time("frequency", times[0])
@@ -232,6 +265,16 @@ class Features(Page):
 
     # Print
 
+    def test_tables_are_as_wide_as_the_paper_and_their_buttons_cover_nothing(self):
+        for width in (360, 1200):
+            with self.screen(width, 900, 1):
+                self.open_sections()
+                self.assertEqual(cropped_tables(self.browser), [], width)
+
+    def test_each_panel_can_be_saved(self):
+        self.open_sections()
+        self.assertEqual(unsaved_panels(self.browser), [])
+
     def test_printing_draws_all_sections_in_the_light_theme(self):
         self.browser.execute_cdp_cmd("Emulation.setEmulatedMedia", {"features": [{"name": "prefers-color-scheme", "value": "dark"}]})
         try:
@@ -264,6 +307,8 @@ class Features(Page):
                 self.assertGreaterEqual(contrast(colour[name], colour["paper"]), limit, (theme, name))
             for ground in grounds:
                 self.assertGreaterEqual(contrast(colour["ink"], colour[ground]), 4.5, (theme, ground))
+            for button in self.browser.find_elements(By.CSS_SELECTOR, ".save"):
+                self.assertEqual(button.value_of_css_property("opacity"), "1")
         self.browser.execute_cdp_cmd("Emulation.setEmulatedMedia", {"features": []})
 
     def test_it_fits_every_screen_in_both_themes(self):

@@ -319,6 +319,19 @@ class Trials(Page):
                    for label in self.data["trials"]["labels"]}
         self.assertEqual(len(colours & {one.get("stroke") for one in shapes("path", "stroke")}), 2)
 
+    def test_each_panel_can_be_saved(self):
+        self.open_sections()
+        self.assertEqual(unsaved_panels(self.browser), [])
+
+    def test_the_file_of_the_forces_has_each_trial_on_its_own_clock(self):
+        rows = list(csv.DictReader(self.js("return corpuscle.panels['trial force'].csv()").splitlines()))
+        for k, trial in enumerate(self.data["trials"]["trials"]):
+            own = [row for row in rows if row["curve"] == f"force of trial {k + 1}"]
+            force, step = numbers("f", trial["force"]["values"]), trial["force"]["step"]
+            self.assertEqual([float(row["value (N)"]) for row in own], list(force))
+            self.assertAlmostEqual(float(own[0]["time (s)"]), trial["force"]["from"] + step / 2, 9)
+            self.assertEqual({row["series"] for row in own}, {trial["label"]})
+
     def test_the_histogram_is_that_of_the_spikes(self):
         trials = self.data["trials"]
         group = int(self.js("return document.querySelector('#trials select').selectedIndex"))
@@ -381,6 +394,10 @@ class ManyFiles(Page):
         files = sorted(str(one) for kind in ("press", "tap") for one in OUT.glob(f"{kind}_[01][0-9].csv"))
         subprocess.run([CORPUSCLE, "respond", *files, "-a", "sa1-nerve,fa1-nerve", "--report", str(path), "--quiet"], check=True, stderr=subprocess.DEVNULL)
         return path
+
+    def test_each_panel_can_be_saved(self):
+        self.open_sections()
+        self.assertEqual(unsaved_panels(self.browser), [])
 
     def test_all_files_are_compared_from_their_start(self):
         trials = self.data["trials"]

@@ -189,6 +189,19 @@ class Studies(Pages):
         self.assertIn("corpuscle study kim", self.browser.find_element(By.ID, "command").text)
         self.assertNotIn(str(OUT), self.browser.find_element(By.ID, "command").text)
 
+    def test_on_paper_each_study_has_its_picture_and_each_table_fits(self):
+        self.open(self.path, "#fig13")
+        self.assertEqual(cropped_tables(self.browser), [])
+        self.browser.execute_cdp_cmd("Emulation.setEmulatedMedia", {"media": "print"})
+        self.assertTrue(all(one.is_displayed() for one in self.all(".thumbnail")))
+        self.browser.execute_cdp_cmd("Emulation.setEmulatedMedia", {"media": ""})
+
+    def test_an_opened_study_is_below_the_bar_on_a_phone(self):
+        self.open(self.path, "#fig13", 360, 740)
+        bar, study = (self.js("return document.querySelector(arguments[0]).getBoundingClientRect().toJSON()", one) for one in (".toolbar", ".opened"))
+        self.assertGreaterEqual(study["top"], bar["bottom"])
+        self.assertFalse(self.js("return document.getElementById('claims').open"), "hundreds of claims are folded there")
+
     def test_on_paper_the_controls_are_gone(self):
         self.open(self.path, "#fig13")
         self.browser.execute_cdp_cmd("Emulation.setEmulatedMedia", {"media": "print"})

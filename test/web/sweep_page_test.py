@@ -75,10 +75,35 @@ class RandomItems(SweepPages):
         for unit in ("mV", "nA", "°C"):
             self.assertIn(unit, body)
 
+    def test_only_what_is_drawn_at_random_has_a_confidence_interval(self):
+        self.open(self.path)
+        self.assertEqual(self.texts_of("#yields .range, #measures .range"), [])
+        self.assertEqual(self.all("#measures [title*=…]"), [])
+        self.assertEqual(len(self.texts_of("#points .range")), 2, "the chips of a temperature are random")
+        self.assertIn("not random", self.texts_of("#measures h2")[0])
+
+    def test_a_grid_with_random_items_has_a_line_of_means(self):
+        self.open(self.path)
+        x, y = self.js("const {x, y} = [...document.querySelectorAll('#means [data-panel]')].map((one) => corpuscle.panels[one.dataset.panel])[0].curves[0]; return [Array.from(x), Array.from(y)]")
+        self.assertEqual(x, [27, 85])
+        items = [one for one in items_of(self.path) if one["v(q)"] is not None]
+        for temperature, mean in zip(x, y):
+            values = [one["v(q)"] for one in items if one["temp"] == temperature]
+            self.assertAlmostEqual(mean, sum(values) / len(values), delta=1e-7 * abs(mean))  # the page has single precision
+
+    def test_each_panel_can_be_saved_and_each_table_printed(self):
+        self.open(self.path)
+        self.assertEqual(unsaved_panels(self.browser), [])
+        self.assertEqual(cropped_tables(self.browser), [])
+
+    def test_two_axes_with_random_items_have_a_heat_map_of_means(self):
+        self.open(page_of("mixed", CHIPS.replace('samples = 60', 'samples = 3').replace('[limits]', '[[vary]]\nwhat = "supply"\nlist = ["0.65V", "0.7V", "0.75V"]\n[limits]')))
+        self.assertEqual(self.drawn_points("v(q): heat map"), 6)
+
     def test_the_histogram_counts_all_items_and_the_figures_follow_the_selectors(self):
         self.open(self.path)
         self.assertEqual(self.panels()[:2], ["histogram", "normal plot"])
-        self.assertEqual(len(self.panels()), 2 + len(self.data["factors"][0]))
+        self.assertEqual(len(self.panels()), 2 + len(self.data["factors"][0]) + 1)  # and the means over the temperature
         self.assertEqual(sum(self.curve("histogram")[1]), 120)
         self.assertEqual(len(self.curve("normal plot")[0]), 120)
         self.select("Colour by", "temp")
@@ -177,6 +202,11 @@ class Grids(SweepPages):
             data.xs.forEach((_, i) => data.ys.forEach((__, j) => found.add(context.getImageData((area.x + (i + 0.1) / 4 * area.w) * ratio, (area.y + (j + 0.1) / 3 * area.h) * ratio, 1, 1).data.join())));
             return found.size""")
         self.assertEqual(colours, len({row["spikes"] for row in items_of(self.path)}))
+
+    def test_each_panel_can_be_saved_and_each_table_printed(self):
+        self.open(self.path)
+        self.assertEqual(unsaved_panels(self.browser), [])
+        self.assertEqual(cropped_tables(self.browser), [])
 
     def test_units_are_at_every_value(self):
         self.open(self.path)

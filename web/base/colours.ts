@@ -10,10 +10,16 @@ export const seriesColour = (index: number) => `var(--series-${index % 8})`;
 export const CLASSES = ["sa1", "fa1", "sa2", "fa2"];
 /// The colour of a class of afferents, the same on all pages.
 export const classColour = (name: string) => seriesColour(Math.max(0, CLASSES.indexOf(name)));
-/// The colour of the k-th of several afferents of one class.
-export const variantColour = (name: string, k: number) => (k === 0 ? classColour(name) : mixed(classColour(name), k % 2 ? "var(--ink)" : "var(--paper)", [0.45, 0.4, 0.7, 0.6][(k - 1) % 4]));
+/// The colour of the k-th of several afferents of one class: the first is pure, others are darker or greyer. Each has a contrast of 3 to the paper.
+export const variantColour = (name: string, k: number) => (k === 0 ? classColour(name) : mixed(classColour(name), k % 2 ? "var(--ink)" : "var(--axis)", [0.45, 0.6, 0.7, 0.85][(k - 1) % 4]));
 /// A mixture: fraction 0 is the first colour, 1 the second.
 export const mixed = (first: string, second: string, fraction: number) => `color-mix(in srgb, ${second} ${+(100 * fraction).toFixed(3)}%, ${first})`;
+
+/// Black or white: the one that has more contrast to a colour (red, green, blue from 0 to 255), by the relative luminance of WCAG.
+export function inkOn(colour: number[]): string {
+    const [r, g, b] = colour.map((v) => (v / 255 <= 0.03928 ? v / 255 / 12.92 : ((v / 255 + 0.055) / 1.055) ** 2.4));
+    return 0.2126 * r + 0.7152 * g + 0.0722 * b > 0.179 ? "#000" : "#fff";
+}
 
 /// The red, green and blue of a CSS colour, 0 to 255.
 export function components(css: string): [number, number, number] {

@@ -3,9 +3,9 @@
 
 const MAX_LINK = 4000;
 
-/// The values in the link of the page; null if the link is damaged. The name of a part of the page has the key "".
-export function linkValues(text = location.hash): Map<string, string> | null {
-    if (text.length > MAX_LINK) return null;
+/// The values in the link of the page; null if the link is damaged, or longer than `most`. The name of a part of the page has the key "".
+export function linkValues(text = location.hash, most = MAX_LINK): Map<string, string> | null {
+    if (text.length > most) return null;
     const values = new Map<string, string>();
     const parts = text.replace(/^#/, "").split("&").filter(Boolean);
     if (parts.length && /^[\w.-]+$/.test(parts[0])) values.set("", parts.shift()!);
@@ -22,13 +22,22 @@ export function linkValues(text = location.hash): Map<string, string> | null {
 }
 
 let timer = 0;
+let delayed = () => {};  // puts the values of the last setLink() into the link
 
 /// Puts values into the link of the page, without an entry in the history. Values that are null are left out. The last of several calls counts,
 /// because browsers limit how often a link may change.
 export function setLink(values: Record<string, string | number | null | undefined>) {
     const text = Object.entries(values).filter(([, value]) => value !== null && value !== undefined && value !== "").map(([name, value]) => (name && `${name}=`) + encodeURIComponent(value!)).join("&");
     clearTimeout(timer);
-    timer = window.setTimeout(() => replaceLink(text), 200);
+    delayed = () => replaceLink(text);
+    timer = window.setTimeout(delayed, 200);
+}
+
+/// The address of the page with the values of the last setLink(), which are otherwise delayed.
+export function currentAddress(): string {
+    clearTimeout(timer);
+    delayed();
+    return location.href;
 }
 
 function replaceLink(text: string) {
@@ -45,6 +54,7 @@ function replaceLink(text: string) {
 export function onLinkChange(follow: () => void) {
     addEventListener("hashchange", ({newURL}) => {
         clearTimeout(timer);
+        delayed = () => {};
         replaceLink(new URL(newURL).hash.replace(/^#/, ""));
         follow();
     });

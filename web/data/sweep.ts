@@ -4,7 +4,8 @@ import type {EncodedArray, Numbers} from "../base/arrays";
 import type {Estimate} from "../panels/bars";
 import type {PageData} from "./document";
 
-export interface SweepAxis { name: string; unit: string; description: string; words?: string[] }
+/// is_listed: the axis has a list of values; others are drawn at random.
+export interface SweepAxis { name: string; unit: string; description: string; words?: string[]; is_listed: boolean }
 /// Limits are there if any measure of the sweep has some; null stands for no limit.
 export interface SweepMeasure { name: string; unit: string; description: string; at_least?: number | null; at_most?: number | null }
 

@@ -6,7 +6,7 @@ export interface Parameter {
 }
 
 /// A number, choice or array of transistors that a circuit can be given beside its parameters.
-export interface Setting { name: string; kind: "number" | "choice" | "array"; unit: string; value: number | string; choices?: string[]; block?: string; description: string }
+export interface Setting { name: string; kind: "number" | "choice" | "array"; unit: string; value: number | string | null; choices?: string[]; block?: string; description: string }
 export interface Afferent {
     name: string; class: string; composition: string; description: string; is_circuit: boolean; probes: {name: string; unit: string}[];
     parameters: Parameter[];

@@ -3,7 +3,7 @@
 import type {NumberArray} from "../base/arrays";
 import {onAppearanceChange} from "../base/colours";
 import {append, chooser, download, fill, h} from "../base/dom";
-import {onLinkChange} from "../base/link";
+import {currentAddress, onLinkChange} from "../base/link";
 import {quantity} from "../base/text";
 import {csvText} from "../plot/panel";
 import {connectKeys} from "../plot/pointer";
@@ -38,6 +38,7 @@ class LivePage {
     private chartHost = h("div", {class: "charts"});
     private showForce = () => {};  // on its control; set by forceControl()
     private shear: HTMLInputElement = h("input", {type: "checkbox", id: "shear"});
+    private recording: Recording | null = null;  // when its section has been opened
     private frames = 0;
     private lastUpdate = 0;
 
@@ -67,7 +68,7 @@ class LivePage {
         const main = h("main", {class: "live"}, h("section", {class: "press"}, this.skinView.root, this.forceControl(), h("div", {class: "controls"}, this.programmes(), this.skinControls)),
             h("section", {class: "responses"}, this.chartHost, this.rows.root));
         append(document.body, h("header", {}, h("h1", {}, "Press a skin"), h("span", {class: "program"}, `corpuscle ${this.catalogue.version}, computed in ${engine.place}`)), this.toolbar(), this.message, main);
-        folded(document.body, "recordings", "Replay a recording", "", "", (host) => host.append(new Recording(this.session).root));
+        folded(document.body, "recordings", "Replay a recording", "", "", (host) => host.append((this.recording = new Recording(this.session)).root));
         connectKeys(this.charts.view);
         onAppearanceChange(() => { this.skinView.redraw(); this.charts.view.request(); });
     }
@@ -82,11 +83,17 @@ class LivePage {
             button("Restart", "restart", "Start again from rest", () => void this.start()),
             button("Follow", "follow", "Show the present again", () => this.charts.followAgain()),
             button("Sound off", "sound", "Hear the spikes of the rows", (node) => void this.sound.toggle().then((on) => { node.textContent = on ? "Sound on" : "Sound off"; })),
-            button("Copy link", "copy-link", "Copy a link to this page with its settings", (node) => copy(location.href, node)),
+            button("Copy link", "copy-link", "Copy a link to this page with its settings", (node) => this.copyLink(node)),
             button("Save spikes", "save", "Save the spikes of this session since its start as CSV", () => void this.save({format: "csv"})),
             this.nwb,
             button("Save force", "save-force", "Save the force of the last minute as a recording, which corpuscle respond reads", () => download("force.csv", forceText(session))),
             this.status);
+    }
+
+    /// The click may also have ended the typing of a value, which the engine has to accept first.
+    private copyLink(button: HTMLButtonElement) {
+        if (this.session.isChanging) requestAnimationFrame(() => this.copyLink(button));
+        else copy(currentAddress(), button);
     }
 
     private async saveNwb() {
@@ -176,11 +183,11 @@ class LivePage {
         this.rows.renew();
     }
 
-    /// Starts the simulation. Returns false, after a message, if the engine refuses the settings.
-    async start(): Promise<boolean> {
+    /// Starts the simulation, and puts the settings into the link, unless it keeps the link of the user. Returns false, after a message, if the engine refuses the settings.
+    async start(keepsLink = false): Promise<boolean> {
         this.say("");
         if (!await this.session.start()) return false;
-        putSettingsInLink(this.settings);
+        if (!keepsLink) putSettingsInLink(this.settings);
         this.showForce();
         if (this.session.warnings.length) this.say(this.session.warnings.join("; "));
         this.nwb.hidden = !this.session.formats.includes("nwb");
@@ -191,15 +198,19 @@ class LivePage {
         return true;
     }
 
-    /// Starts with the settings of the link, or with the defaults if it is damaged or the engine refuses it.
+    /// Starts with the settings of the link, or with the defaults if it is damaged or the engine refuses it. Such a link stays in the address bar, where
+    /// the user can correct it, until a setting changes.
     async openLink() {
         const settings = settingsOfLink(this.catalogue);
-        let reason = settings ? "" : "is damaged";
-        Object.assign(this.settings, settings);
-        if (settings && !await this.start()) reason = `is refused (${this.message.textContent})`;
+        let reason = "";
+        if (typeof settings === "string") reason = `is damaged${settings ? `: its part ${settings.slice(0, 40)} cannot be read` : ""}`;
+        else {
+            Object.assign(this.settings, settings);
+            if (!await this.start()) reason = `is refused (${this.message.textContent})`;
+        }
         if (!reason) return;
         Object.assign(this.settings, defaultSettings(this.catalogue));
-        if (await this.start()) this.say(`The link of this page ${reason}, so the page starts with its defaults.`);
+        if (await this.start(true)) this.say(`The link of this page ${reason}, so the page starts with its defaults.`);
     }
 
     /// Simulates and draws, once per screen frame.
@@ -218,6 +229,7 @@ class LivePage {
             this.pause.textContent = session.isPaused ? "Go on" : "Pause";
             this.shear.disabled = session.hasOwnShear;
             this.rows.update();
+            this.recording?.update();
         });
     }
 

@@ -23,8 +23,11 @@ export class Recording {
     private status = h("p", {class: "readout", role: "status", id: "recording-status"});
     private view: View | null = null;
     private options: HTMLInputElement = h("input", {type: "text", id: "recording-options", size: 40, spellcheck: false,
-        placeholder: "--rate 1kHz --scale 0.01 --channel Fz", onchange: () => this.read(this.file)});
+        placeholder: "--rate 1kHz --scale 0.01 --channel Fz", onchange: () => this.read(this.file), onkeydown: ({key}: KeyboardEvent) => { if (key === "Enter") this.options.blur(); }});
     private file: File | undefined;  // the last one
+    private again = h("button", {type: "button", id: "replay-again", hidden: true, onclick: () => { if (this.force) void this.run(this.force); }}, "Simulate again with the changed settings");
+    private force: Force | null = null;  // of the newest replay
+    private replayed = "";               // its settings
     private newest = 0;              // number of the newest reading or replay; what belongs to an older one is not shown
 
     constructor(private session: Session) {
@@ -44,7 +47,7 @@ export class Recording {
         const play = h("button", {type: "button", id: "play-stimulus", onclick: () => runStimulus(names[chosen])}, "Play");
         append(this.root, h("p", {}, "Recording ", h("label", {class: "file-button"}, "Choose a file", input), " ", this.fileName, " ", stimulus, " ", play),
             h("p", {class: "bar"}, h("label", {title: "how the file is read: options of `corpuscle respond` for recordings"}, "Options of the recording ", this.options)),
-            h("p", {class: "note"}, `A table of forces of at most ${engine.maxMegabytes} MB: ${engine.formats}. It is read and simulated by ${engine.place}; it is not sent anywhere else.`), this.status, this.about, this.replay);
+            h("p", {class: "note"}, `A table of forces of at most ${engine.maxMegabytes} MB: ${engine.formats}. It is read and simulated by ${engine.place}; it is not sent anywhere else.`), this.status, this.again, this.about, this.replay);
         this.root.addEventListener("dragover", (event) => event.preventDefault());
         this.root.addEventListener("drop", (event) => {
             event.preventDefault();
@@ -64,7 +67,17 @@ export class Recording {
         return ++this.newest;
     }
 
+    /// What a replay depends on beside its force.
+    private get settingsText() {
+        const {rows, seed} = this.session.settings;
+        return JSON.stringify([seed, rows.map(({afferent, set}) => [afferent, settingTexts(set)])]);
+    }
+
+    /// Offers to simulate again if the settings have changed since. Called a few times a second.
+    update() { this.again.hidden = this.force === null || this.replayed === this.settingsText; }
+
     private clearReplay() {
+        this.force = null;
         this.view?.remove();
         this.view = null;
         fill(this.replay);
@@ -101,6 +114,7 @@ export class Recording {
             this.status.textContent = "There is no afferent to simulate; choose one with Add an afferent.";
             return;
         }
+        [this.force, this.replayed, this.again.hidden] = [force, this.settingsText, true];
         this.status.textContent = `${force.name}: 0 % simulated`;
         try {
             const isDone = await this.session.runJob({request: "respond", seed: settings.seed, rows, ...force.request}, {}, (answer) => {

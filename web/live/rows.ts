@@ -65,7 +65,7 @@ export class Rows {
             if (details.open && !content.firstChild) this.showDetails(k, content);
         });
         if (details.open) this.showDetails(k, content);
-        return h("div", {class: "row-card", "data-row": info.name}, details, h("button", {type: "button", class: "remove", title: "Remove", "aria-label": `Remove ${info.name}`, onclick: () => this.remove(k)}, "×"));
+        return h("div", {class: "row-card", "data-row": info.name}, details, h("button", {type: "button", class: "remove", title: "Remove", "aria-label": `Remove ${info.name}`, onclick: (event: MouseEvent) => { if (event.detail < 2) this.remove(k); }}, "×"));
     }
 
     private showDetails(k: number, host: HTMLElement) {

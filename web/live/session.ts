@@ -2,6 +2,7 @@
 
 import {NumberArray, numberedArrays} from "../base/arrays";
 import {variantColour} from "../base/colours";
+import {shortest} from "../base/text";
 import type {Catalogue, Parameter} from "./catalogue";
 import type {Answer, Engine} from "./engine";
 import {HISTORY, LiveCurve, LiveTrain, appendSpikes} from "./history";
@@ -11,7 +12,7 @@ import {Settings, settingTexts} from "./settings";
 export interface ValidRange { quantity: string; unit: string; low: number; high: number; meaning: string }
 
 /// The sentence about a quantity that has left its range.
-export const rangeText = ({quantity, unit, low, high, meaning}: ValidRange) => `${quantity} is outside ${low} to ${high} ${unit}: ${meaning}`;
+export const rangeText = ({quantity, unit, low, high, meaning}: ValidRange) => `${quantity} is outside ${shortest(low)} to ${shortest(high)} ${unit}: ${meaning}`;
 
 interface RowInfo {
     name: string; class: string; composition: string; is_circuit: boolean; probes: {name: string; unit: string}[]; delay: number; parameters: Parameter[];
@@ -53,6 +54,7 @@ export class Session {
     private simulated = 0;   // recently simulated, s
     private computed = 0;    // s that the engine needed for it
     private starts = 0;      // requested, and not answered yet
+    private rowChanges = 0;  // requested, and not answered yet
     private contactChanges = 0;  // requested, and not answered yet: the contact may have a shear of its own
     private rate = 1;        // samples per second
     private job = 0;         // number of the newest one
@@ -97,6 +99,7 @@ export class Session {
 
     /// Replaces the settings of a row while the simulation goes on.
     async setRow(k: number): Promise<boolean> {
+        ++this.rowChanges;
         try {
             const {head} = await this.engine.request({request: "set", row: k, set: settingTexts(this.settings.rows[k].set)});
             this.rows[k].info = head.row;
@@ -106,6 +109,8 @@ export class Session {
         } catch (error) {
             this.failed((error as Error).message);
             return false;
+        } finally {
+            --this.rowChanges;
         }
     }
 
@@ -177,6 +182,9 @@ export class Session {
     get isSilent() { return [...this.rows.map(({train}) => train), ...(this.skin ? this.skin.trains : [])].every(({count}) => count === 0); }
 
     get isBusy() { return this.pending > 0; }
+
+    /// True until the engine has answered all starts and changes of settings.
+    get isChanging() { return this.starts + this.rowChanges + this.contactChanges > 0; }
 
     private async advance(samples: number) {
         const {generation} = this, asked = performance.now(), {rate} = this, {force, ...place} = this.press.block(samples, rate, this.hasOwnShear || this.contactChanges > 0);

@@ -15,6 +15,7 @@ export interface Settings {
     contact: Map<string, string>;
 }
 
+const MAX_LINK = 100_000;  // characters: all sizes of a dozen chips
 export const MAX_ROWS = 12, MIN_FORCE = 0.01, MAX_FORCE = 20;  // N
 
 export const defaultSettings = (catalogue: Catalogue): Settings => ({
@@ -78,10 +79,10 @@ function parsedRows(text: string): RowSettings[] | null {
     return rows.length <= MAX_ROWS ? rows : null;
 }
 
-/// The settings in the link of the page; null if the link is damaged.
-export function settingsOfLink(catalogue: Catalogue): Settings | null {
-    const values = linkValues(), out = defaultSettings(catalogue);
-    if (!values) return null;
+/// The settings in the link of the page; if it is damaged, the name of the damaged part, or "" if it cannot be divided into parts.
+export function settingsOfLink(catalogue: Catalogue): Settings | string {
+    const values = linkValues(location.hash, MAX_LINK), out = defaultSettings(catalogue);
+    if (!values) return "";
     const number = (name: string, low: number, high: number, fallback: number) => {
         if (!values.has(name)) return fallback;
         const value = linkNumber(values.get(name));
@@ -90,11 +91,12 @@ export function settingsOfLink(catalogue: Catalogue): Settings | null {
     const rows = values.has("rows") ? parsedRows(values.get("rows")!) : out.rows;
     const contact = parsedSettings((values.get("contact") || "").split("~").filter(Boolean));
     const skin = values.get("skin") ?? out.population, indenter = values.get("indenter") ?? out.indenter;
-    const isKnown = (skin === "" || skin === "none" || catalogue.populations.some(({name}) => name === skin)) && catalogue.indenters.some(({name}) => name === indenter);
-    const hasUnknownKey = [...values.keys()].some((name) => !["rate", "seed", "force", "rows", "contact", "skin", "indenter"].includes(name));
+    const isSkin = skin === "" || skin === "none" || catalogue.populations.some(({name}) => name === skin), isIndenter = catalogue.indenters.some(({name}) => name === indenter);
+    const isGood: Record<string, boolean> = {rows: rows !== null, contact: contact !== null, skin: isSkin, indenter: isIndenter};
     Object.assign(out, {rate: number("rate", 500, 100_000, out.rate), seed: number("seed", 0, 2 ** 53, out.seed), force: number("force", MIN_FORCE, MAX_FORCE, out.force)});
-    if (!rows || !contact || !isKnown || hasUnknownKey || [out.rate, out.seed, out.force].some(Number.isNaN)) return null;
-    return {...out, rows, contact, population: skin === "none" ? "" : skin, indenter};
+    for (const name of ["rate", "seed", "force"] as const) isGood[name] = !Number.isNaN(out[name]);
+    const damaged = [...values.keys()].find((name) => !isGood[name]);
+    return damaged ?? {...out, rows: rows!, contact: contact!, population: skin === "none" ? "" : skin, indenter};
 }
 
 export function putSettingsInLink({rate, seed, force, rows, population, indenter, contact}: Settings) {

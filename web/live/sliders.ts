@@ -26,11 +26,18 @@ const rangeText = ({low, high, unit}: Parameter) =>
 /// Changes a setting to a text as the engine reads it ("25Hz"), or to its default; see SettingQueue.change().
 export type Change = (text: string | null) => Promise<boolean | null>;
 
+/// A field for numbers would leave out a typed comma, so that "1,5" became 15.
+function pointForComma(event: KeyboardEvent) {
+    if (event.key !== "," || event.ctrlKey || event.altKey || event.metaKey) return;
+    event.preventDefault();
+    document.execCommand("insertText", false, ".");
+}
+
 /// A control for one parameter. After a refused change it shows the last value that the engine has accepted.
 export function parameterControl(parameter: Parameter, value: number, change: Change): HTMLElement {
     const scale = scaleOf(parameter), unit = unitText(parameter.unit);
     let accepted = value;
-    const number: HTMLInputElement = h("input", {type: "number", step: "any", value, min: parameter.low, max: parameter.high, "aria-label": `${parameter.name} in ${unit || "1"}`, onchange: () => void set(number.value.trim() ? Number(number.value) : NaN)});
+    const number: HTMLInputElement = h("input", {type: "number", step: "any", value, min: parameter.low, max: parameter.high, "aria-label": `${parameter.name} in ${unit || "1"}`, onchange: () => void set(number.value.trim() ? Number(number.value) : NaN), onkeydown: pointForComma});
     const slider: HTMLInputElement | null = scale && h("input", {type: "range", min: 0, max: STEPS, value: positionOf(scale, value), "aria-label": parameter.name, oninput: () => void set(valueOf(scale, Number(slider!.value)))});
     const reset = h("button", {type: "button", title: `Default: ${quantity(parameter.default, parameter.unit, true)}`, "aria-label": `Default of ${parameter.name}`, onclick: () => void set(parameter.default)}, "↺");
     const show = (v: number) => {
@@ -51,12 +58,13 @@ export function parameterControl(parameter: Parameter, value: number, change: Ch
 
 /// A control for a setting of a circuit that is not a parameter: supply, temperature, corner, size of an array.
 export function settingControl(setting: Setting, value: string | undefined, change: Change): HTMLElement {
-    const {name, kind, unit, choices = [], description} = setting, current = value ?? String(setting.value);
+    const {name, kind, unit, choices = [], description} = setting, own = String(setting.value ?? ""), current = value ?? own;
     let accepted = current;
-    const set = async (text: string) => {
-        const isAccepted = await change(text === String(setting.value) ? null : text);
+    const set = async (typed: string) => {
+        const text = typed.trim() || own;  // an empty field is the default
+        const isAccepted = await change(text === own ? null : text);
         if (isAccepted) accepted = text;
-        else if (isAccepted === false) field.value = accepted;
+        if (isAccepted !== null) field.value = accepted;
     };
     const field: HTMLInputElement | HTMLSelectElement = kind === "choice"
         ? h("select", {"aria-label": name, onchange: () => void set(field.value)}, ...choices.map((text) => h("option", {selected: text === current}, text)))

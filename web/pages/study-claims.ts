@@ -53,7 +53,7 @@ export function claimTable(name: string, rows: ClaimRow[], hasStudy = false, isS
 /// The counts of agreeing and deviating claims of each kind, and the meaning of the kinds.
 export function kindTable(kinds: KindData[]): HTMLElement {
     const groups = ["printed", "derived", "statements"] as const, words = {printed: ["printed agree", "printed differ"], derived: ["derived agree", "derived differ"], statements: ["statements hold", "do not hold"]};
-    return table({name: "kinds of claims", isStacked: true, isSortable: false,
+    return table({name: "kinds of claims", isStacked: true,
                   columns: [{name: "kind"}, ...groups.flatMap((one) => words[one].map((name) => ({name, isNumber: true}))), {name: "meaning", class: "unit reason"}],
                   rows: kinds.map((one) => [one.kind, ...groups.flatMap((group) => [one[group].agreeing, one[group].deviating]), one.meaning])});
 }

@@ -1,12 +1,12 @@
 // The page of studies: a grid of small pictures with verdicts, each of which opens its figures and claims, then all claims in one table.
 
-import {h} from "../base/dom";
+import {h, isNarrow} from "../base/dom";
 import {label} from "../base/label";
 import {linkValues, onLinkChange, setLink} from "../base/link";
 import {expose, forgetRemoved} from "../base/panels";
 import type {PlotData, StudyData, StudyRecord} from "../data/study";
 import {plotPanel, thumbnail} from "../panels/plots";
-import {section, showVersions, startPage} from "../shell";
+import {folded, section, showVersions, startPage} from "../shell";
 import {ClaimRow, claimTable, deviationPlot, isDeviating, kindTable, matches, verdictCounts} from "./study-claims";
 
 interface Filter { search: string; isDeviatingOnly: boolean; kind: string }
@@ -30,7 +30,7 @@ function showStudies(main: Element, data: StudyData) {
     };
     main.append(filterBar(data, filter, refresh), gallery.root);
     section(main, "kinds", "Kinds of claims").append(kindTable(data.kinds));
-    section(main, "claims", "All claims").append(all);
+    folded(main, "claims", "All claims", `${claims.length}`, "", (host) => host.append(all), !isNarrow());  // a phone would show metres of them before the versions
     const follow = () => {
         const values = linkValues();
         if (values?.get("")) gallery.open(values.get("")!);
@@ -94,6 +94,7 @@ class Gallery {
             openStudy(own.content, own.study);
         }
         setLink({"": name});
+        own.content.style.scrollMarginTop = `${document.querySelector<HTMLElement>(".toolbar")!.offsetHeight + 6}px`;  // which stays at the top, and has two lines on a phone
         own.content.scrollIntoView({block: "start"});
     }
 

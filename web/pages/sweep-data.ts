@@ -2,7 +2,7 @@
 
 import {numbersOf} from "../base/arrays";
 import {seriesColour} from "../base/colours";
-import type {SweepData, SweepMeasure} from "../data/sweep";
+import type {Effect, SweepData, SweepMeasure} from "../data/sweep";
 import {Axis, textOn} from "../panels/axis";
 
 export class Sweep {
@@ -18,6 +18,8 @@ export class Sweep {
     get summary() { return this.data.summary; }
     get measures() { return this.data.summary.measures; }
     get isGrid() { return this.data.grids !== undefined; }
+    /// True for a grid with several random items at each point.
+    get isMixed() { return !this.isGrid && this.summary.axes.some((one, axis) => one.is_listed && this.levels(axis).length > 1); }
     /// True if the page has every finished item.
     get isComplete() { return this.data.rows.row.length === this.summary.finished; }
 
@@ -56,6 +58,19 @@ export class Sweep {
             if (cell) [cell[0], cell[1]] = [cell[0] + value, cell[1] + 1];
         }
         return {xs, ys, means: sums.map((column) => column.map(([sum, count]) => (count ? sum / count : null)))};
+    }
+
+    /// The effects of the listed axes of a grid with random items: the means of the items at each value. The largest effect comes first.
+    effectsOfGrid(measure: number): Effect[] {
+        const values = Array.from(this.measureValues[measure]).filter((v) => !Number.isNaN(v)), mean = values.reduce((sum, v) => sum + v, 0) / values.length;
+        const total = values.reduce((sum, v) => sum + (v - mean) ** 2, 0) / values.length;
+        if (!(total > 0)) return [];
+        const effects = this.summary.axes.map((one, axis) => ({one, axis})).filter(({one, axis}) => one.is_listed && this.levels(axis).length > 1).map(({axis}): Effect => {
+            const {xs, means: table} = this.meansOver(measure, axis, axis, []), means = table.map((column, k) => column[k]);
+            const between = means.reduce((sum: number, v) => sum + ((v ?? mean) - mean) ** 2, 0) / means.length;  // the points have equally many items
+            return {axis, fraction: between / total, values: xs, means};
+        });
+        return effects.sort((one, other) => other.fraction - one.fraction);
     }
 
     /// The means that C++ has computed over all values of the other axes.

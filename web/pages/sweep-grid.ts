@@ -1,4 +1,4 @@
-// The page of a sweep over a grid: a measure over two axes as heat map and lines, the effect of every axis, and tables.
+// The page of a sweep over a grid, which may have random items at each point: a measure over two axes as heat map and lines, the effect of every axis, and tables.
 
 import {numbersOf} from "../base/arrays";
 import {seriesColour} from "../base/colours";
@@ -20,12 +20,12 @@ const MAX_LINES = 8;
 /// The axes of the figures: x and y, and for each other axis the value that it has, or null for the mean over it.
 export interface GridChoice { x: number; y: number; fixed: (number | null)[] }
 
-const effectsOf = (sweep: Sweep, measure: number): Effect[] => sweep.data.grids![measure]?.effects || [];
+const effectsOf = (sweep: Sweep, measure: number): Effect[] => (sweep.isGrid ? sweep.data.grids![measure]?.effects || [] : sweep.effectsOfGrid(measure));
 
 /// Axes with several values, that with the largest effect on the measure first.
 export function variedAxes(sweep: Sweep, measure: number): number[] {
     const byEffect = effectsOf(sweep, measure).map(({axis}) => axis), all = sweep.summary.axes.map((_, a) => a).filter((a) => sweep.levels(a).length > 1);
-    return [...byEffect, ...all.filter((a) => !byEffect.includes(a))];
+    return sweep.isGrid ? [...byEffect, ...all.filter((a) => !byEffect.includes(a))] : byEffect;
 }
 
 /// Selectors of the axes. `change` is called after each choice.

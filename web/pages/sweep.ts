@@ -20,7 +20,7 @@ export function showSweepPage(data: SweepData) {
     if (!sweep.isGrid || all.passed < all.items) showYields(section(main, "yields", sweep.isGrid ? "Limits" : "Yield"), sweep);
     const figures = new Figures(main, sweep);
     showAxes(main, sweep);
-    const measures = section(main, "measures", "Measures", sweep.isGrid ? "" : "with 95 % confidence intervals");
+    const measures = section(main, "measures", "Measures", sweep.isGrid ? "" : sweep.isMixed ? "over all grid points, which are not random; intervals of confidence are given at each point" : "with 95 % confidence intervals");
     if (sweep.isGrid) showGridMeasures(measures, sweep);
     else showDistributions(measures, sweep);
     if (sweep.isGrid) showEffects(main, sweep);
@@ -42,11 +42,14 @@ class Figures {
 
     constructor(private host: Element, private sweep: Sweep) {
         this.grid = {x: 0, y: 1, fixed: sweep.summary.axes.map(() => null)};
-        if (sweep.isGrid) this.chooseAxes();
+        if (this.hasGrid) this.chooseAxes();
         this.restore();
         this.addToolbar();
         host.append(this.panels);
     }
+
+    /// A grid with random items needs all of them for its means.
+    private get hasGrid() { return this.sweep.isGrid || (this.sweep.isMixed && this.sweep.isComplete && this.sweep.measures.length > 0); }
 
     /// Starts with the two axes that have the largest effects.
     private chooseAxes() {
@@ -80,7 +83,7 @@ class Figures {
     private store() {
         const {sweep, choice, grid} = this, {axes} = sweep.summary;
         setLink({measure: choice.measure ? sweep.measures[choice.measure].name : null, colour: choice.grouping ? sweep.data.groupings[choice.grouping].name : null,
-                 ...(sweep.isGrid && axes.length > 1 ? {across: axes[grid.x].name, up: axes[grid.y].name, at: grid.fixed.some((v) => v !== null) ? grid.fixed.map((v) => (v === null ? "" : plainNumber(v))).join(",") : null} : {})});
+                 ...(this.hasGrid && axes.length > 1 ? {across: axes[grid.x].name, up: axes[grid.y].name, at: grid.fixed.some((v) => v !== null) ? grid.fixed.map((v) => (v === null ? "" : plainNumber(v))).join(",") : null} : {})});
     }
 
     draw() {
@@ -99,6 +102,12 @@ class Figures {
             showHistogram(columns, sweep, choice);
             showNormalPlot(columns, sweep, choice);
             for (const factor of data.factors[choice.measure] || []) showFactor(columns, sweep, choice, factor);
+            if (this.hasGrid && variedAxes(sweep, choice.measure).length) {
+                axisChoosers(this.axes, sweep, choice.measure, grid, redraw);
+                const means = h("div", {class: "columns thirds"});
+                group("means", `Means of ${sweep.measures[choice.measure].name} at the grid points`).append(means);
+                showGridFigures(means, sweep, choice.measure, grid);
+            }
         }
         if (data.rasters.length) data.rasters.forEach((train, k) => showRaster(k ? panels : group("rasters", "Spikes"), sweep, choice, train));
         if (data.traces.length) {

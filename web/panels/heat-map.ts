@@ -1,6 +1,6 @@
 // A quantity over two axes: a cell for each pair of their values, its colour from a scale that is drawn at the right.
 
-import {resolved} from "../base/colours";
+import {inkOn, resolved} from "../base/colours";
 import {Child} from "../base/dom";
 import {label, writeLabel} from "../base/label";
 import {Ticks, plainNumber, roundTicks} from "../base/text";
@@ -70,7 +70,7 @@ export class HeatMap extends Panel {
             ++this.drawn;
             const text = textOn(this.data.quantity, value);
             if (height < 17 || xs.length * ys.length > 400 || pen.measureText(text).width + 6 > w) return;
-            pen.fillStyle = shade[0] * 0.3 + shade[1] * 0.59 + shade[2] * 0.11 > 120 ? "#000" : "#fff";
+            pen.fillStyle = inkOn(shade);
             pen.fillText(text, (this.x(i) + this.x(i + 1)) / 2, (top + this.y(j)) / 2);
         }));
         pen.textBaseline = "alphabetic";

@@ -27,7 +27,7 @@ export class RasterPanel<R extends Row = Row> extends RowsPanel<R> {
     private image?: HTMLCanvasElement;  // of the last density
 
     constructor(options: RasterOptions<R>) {
-        super(options);
+        super({...options, about: `${options.about}; n and p move to the next and the previous spike`});
         this.isGrouped = options.isGrouped || false;
         if (this.isNamed) [this.strip, this.height] = [STRIP, this.height + STRIP];
     }
@@ -114,6 +114,20 @@ export class RasterPanel<R extends Row = Row> extends RowsPanel<R> {
         const interval = k > 0 ? `, ${quantity(t - spikes.times[k - 1], "s")} after the one before` : "";
         const number = k + 1 + spikes.count - spikes.times.length;  // a live train forgets its first spikes
         return {x: this.x(t), y, text: `${name}: spike ${number} of ${spikes.count} at ${fixedText(t, 1e-6)}${interval}`};
+    }
+
+    /// n and p move the cursor to the next and the previous spike of the row that the keys have reached.
+    protected key(name: string) {
+        const step = {n: 1, p: -1}[name];
+        if (!step || !this.shownRows.length) return super.key(name);
+        const {spikes} = this.reachedRow(), {view} = this, from = view.cursor ?? (step > 0 ? view.a : view.b), k = spikes.before(from);
+        const t = spikes.times[step < 0 ? k - 1 : spikes.times[k] === view.cursor ? k + 1 : k], half = (view.b - view.a) / 2;
+        if (t === undefined) return true;
+        if (t < view.a || t > view.b) view.set(t - half, t + half);
+        view.point(t);
+        this.hover(this.x(t), this.middleOfReached());
+        view.request();
+        return true;
     }
 
     csv() {

@@ -1,4 +1,4 @@
-// A panel with one row for each afferent, channel or trial. A row is chosen by a click, or with the keys up, down and Enter.
+// A panel with one row for each afferent, channel or trial. The keys up and down reach a row; a click or Enter chooses it.
 
 import {resolved} from "../base/colours";
 import type {Area} from "../plot/panel";
@@ -22,7 +22,7 @@ export abstract class RowsPanel<R extends PanelRow> extends TimePanel {
     private current = -1;  // row that the keys have reached
 
     constructor(options: RowsOptions<R>) {
-        super({...options, about: options.pick ? `${options.about} (up and down reach a row, Enter chooses it)` : options.about});
+        super({...options, about: `${options.about} (up and down reach a row${options.pick ? ", Enter chooses it" : ""})`});
         [this.rows, this.pick] = [options.rows, options.pick || null];
         if (this.pick) this.plot.style.cursor = "pointer";
         this.plot.addEventListener("blur", () => this.view.request());
@@ -52,14 +52,26 @@ export abstract class RowsPanel<R extends PanelRow> extends TimePanel {
 
     protected key(name: string) {
         const rows = this.shownRows, step = {ArrowDown: 1, ArrowUp: -1}[name];
-        if (!this.pick || (!step && name !== "Enter")) return false;
-        if (this.current < 0) this.current = Math.max(0, rows.findIndex(({isChosen}) => isChosen));
-        if (!step) this.choose(rows[this.current]);
+        if (!rows.length || (!step && !(this.pick && name === "Enter"))) return false;
+        const row = this.reachedRow();
+        if (!step) this.choose(row);
         else this.current = Math.max(0, Math.min(rows.length - 1, this.current + step));
         this.view.request();
-        const {x, y, h: height} = this.inner();
-        this.hover(x + 12, y + (this.current + 0.5) * height / rows.length);
+        this.hover(this.inner().x + 12, this.middleOfReached());
         return true;
+    }
+
+    /// The row that the keys have reached; at first the chosen one, or the first.
+    protected reachedRow(): R {
+        const rows = this.shownRows;
+        if (this.current < 0) this.current = Math.max(0, rows.findIndex(({isChosen}) => isChosen));
+        return rows[this.current = Math.min(this.current, rows.length - 1)];
+    }
+
+    /// Its place, in pixels.
+    protected middleOfReached() {
+        const {y, h: height} = this.inner();
+        return y + (this.current + 0.5) * height / this.shownRows.length;
     }
 
     /// Outlines the row that the keys have reached.

@@ -18,18 +18,18 @@ export interface TableOptions {
     columns: Column[];
     rows: Cell[][];
     rowClass?: (row: number) => string;  ///< CSS class of a row
-    isSortable?: boolean;                ///< true unless given
+    hasTotal?: boolean;                  ///< the last row is a total, which stays the last
     isShown?: (row: number) => boolean;  ///< filters the rows; asked again at the event "filter" of the table
     isStacked?: boolean;                 ///< on a narrow screen each row is a list of its cells with their headings
 }
 
 /// A table in a region that scrolls. The first column is the heading of each row.
 export function table(options: TableOptions): HTMLElement {
-    const {name, columns, rows, isSortable = true} = options, body = h("tbody");
+    const {name, columns, rows, hasTotal = false} = options, body = h("tbody");
     let order = rows.map((_, k) => k), sorted = -1, direction = 1;
     const heads = columns.map((column, c) => {
         const label = column.label || [column.name];
-        const content = isSortable && rows.length > 1 && label.some((part) => part !== "") ? h("button", {type: "button", title: "Sort", onclick: () => sort(c)}, ...label) : h("span", {}, ...label);
+        const content = rows.length > 1 && label.some((part) => part !== "") ? h("button", {type: "button", title: "Sort", onclick: () => sort(c)}, ...label) : h("span", {}, ...label);
         return h("th", {scope: "col", class: classOf(column)}, content);
     });
     const shownRows = () => order.filter((k) => !options.isShown || options.isShown(k));
@@ -37,7 +37,7 @@ export function table(options: TableOptions): HTMLElement {
     const sort = (column: number) => {
         direction = sorted === column ? -direction : 1;
         sorted = column;
-        order = rows.map((_, k) => k).sort((i, j) => direction * compare(rows[i][column], rows[j][column]) || i - j);
+        order = rows.map((_, k) => k).sort((i, j) => (hasTotal ? Number(i === rows.length - 1) - Number(j === rows.length - 1) : 0) || direction * compare(rows[i][column], rows[j][column]) || i - j);
         heads.forEach((head, c) => (c === column ? head.setAttribute("aria-sort", direction > 0 ? "ascending" : "descending") : head.removeAttribute("aria-sort")));
         draw();
     };

@@ -93,6 +93,7 @@ export class TracePanel extends TimePanel {
     protected showValues(t: number) { if (!this.owners) this.traces.forEach((trace, k) => this.setValue(this.series[k].name, rangeText(trace.at(t), trace.unit))); }
 
     csv() {
+        if (this.owners) return ownersCsv(this.traces, this.traces.map((_, k) => this.styleOf(k).name), this.view.a, this.view.b);
         const names = this.traces.map((trace, k) => (this.series.length > 1 && this.series[k].name !== trace.quantity ? `${this.series[k].name} ${trace.quantity}` : trace.quantity));
         return tracesCsv(this.traces.map((one) => one.source || one), names, this.view.a, this.view.b);
     }
@@ -106,6 +107,14 @@ export function tracesCsv(traces: Curve[], names: string[], a: number, b: number
         rows.push([t0 + k * bucket * T, ...traces.flatMap((trace) => (bucket === 1 ? [trace.range(k, k + 1)[0]] : trace.range(k * bucket, (k + 1) * bucket)))]);
     const column = (k: number) => `${names[k]} (${traces[k].unit})`;
     return csvText(["time (s)", ...traces.flatMap((_, k) => (bucket === 1 ? [column(k)] : [`min ${column(k)}`, `max ${column(k)}`]))], rows);
+}
+
+/// The values of traces between two times, one after the other, because each has its own clock.
+function ownersCsv(traces: Curve[], series: string[], a: number, b: number): string {
+    return csvText(["series", "curve", "time (s)", `value (${traces[0].unit})`], traces.flatMap((trace, k) => {
+        const {t0, T, samples} = trace.clock, first = Math.max(0, Math.ceil((a - t0) / T)), last = Math.min(samples - 1, Math.floor((b - t0) / T));
+        return Array.from({length: Math.max(0, last - first + 1)}, (_, j) => [series[k], trace.quantity, t0 + (first + j) * T, trace.range(first + j, first + j + 1)[0]]);
+    }));
 }
 
 /// The points t, v, t, v ... that show a trace from time a to b in `width` pixels. If there are few samples, each is a point. Otherwise each

@@ -26,7 +26,10 @@ export function connectPointer(panel: Panel, view: View) {
     plot.addEventListener("pointerdown", (event) => {
         if (event.button !== 0) return;
         const {x} = place(event), isTouch = event.pointerType === "touch";
-        if (isTouch) fingers.set(event.pointerId, x);
+        if (isTouch) {
+            fingers.set(event.pointerId, x);
+            panel.hover(-1, -1);  // the text of the last tap, which may be about to move
+        }
         drag = {x, a: view.a, b: view.b, isPan: event.shiftKey || isTouch};
         plot.setPointerCapture(event.pointerId);
     });
@@ -66,7 +69,8 @@ export function connectPointer(panel: Panel, view: View) {
         panel.click(x, y);
     });
     plot.addEventListener("pointercancel", end);
-    plot.addEventListener("pointerleave", () => panel.hover(-1, -1));
+    plot.addEventListener("pointerleave", ({pointerType}) => { if (pointerType !== "touch") panel.hover(-1, -1); });  // a finger leaves after each tap
+    plot.addEventListener("blur", () => panel.hover(-1, -1));
     plot.addEventListener("dblclick", () => view.reset());
     plot.addEventListener("wheel", (event) => {
         if (!event.ctrlKey && !plot.contains(document.activeElement)) return;

@@ -126,11 +126,11 @@ void Progress::update(double fraction) {
     std::fflush(stderr);
 }
 
-std::string quote_command(int argc, const char* const* argv, bool directories) {
+std::string quote_command(std::span<const std::string> words, bool directories) {
     constexpr std::string_view safe_characters = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-+=./,:%@";
     std::string text = "corpuscle";
-    for (int k = 1; k < argc; ++k) {
-        const auto argument = directories ? std::string(argv[k]) : without_directories(argv[k]);
+    for (const auto& word : words) {
+        const auto argument = directories ? word : without_directories(word);
         if (!argument.empty() && argument.find_first_not_of(safe_characters) == std::string::npos) {
             text += " " + argument;
             continue;

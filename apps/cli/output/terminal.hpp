@@ -7,15 +7,15 @@
 #include <vector>
 
 #include "core/error.hpp"
-#include "core/text/printable.hpp"
 #include "core/text/aligned_table.hpp"
+#include "core/text/printable.hpp"
 
 namespace corpuscle {
 
 /// Prints an error, and the further ones that it holds, on standard error. Returns the exit status of its code.
 int report_error(const Error&);
-/// As report_error(), for a command that mpirun may have started as several ranks: rank 0 prints the error, and the others wait for it, because
-/// mpirun ends all ranks when one ends with an error.
+/// As report_error(), for a command that mpirun may have started as several ranks: rank 0 prints the error, and the others wait for it,
+/// because mpirun ends all ranks when one ends with an error.
 int report_error_once(const Error&);
 /// The exit status of a verb; prints the error, if there is one.
 int exit_status(const Result<void>& done);
@@ -64,7 +64,8 @@ public:
     void update(double fraction);
 };
 
-/// The command line quoted for a shell. Without `directories`, files appear without theirs, so that a published page does not reveal them.
-std::string quote_command(int argc, const char* const* argv, bool directories);
+/// The command line of corpuscle with these words, quoted for a shell. Without `directories`, files appear without theirs, so that a
+/// published page does not reveal them.
+std::string quote_command(std::span<const std::string> words, bool directories);
 
 }  // namespace corpuscle

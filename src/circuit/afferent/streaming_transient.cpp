@@ -1,5 +1,7 @@
 #include "circuit/afferent/streaming_transient.hpp"
 
+#include <set>
+
 #include "core/text/quantity.hpp"
 
 namespace corpuscle::circuit {
@@ -118,7 +120,6 @@ double StreamingTransient::probe_value(const SavedQuantity& saved, std::int64_t 
 }
 
 OperatingState StreamingTransient::operating_state() const {
-    const auto& system = context_->system;
     const auto x = transient_->x();
     const auto power = meter_->power_at(x, transient_->time());
     OperatingState out;
@@ -131,14 +132,28 @@ OperatingState StreamingTransient::operating_state() const {
     for (std::size_t k = 0; k < blocks.size(); ++k) out.blocks.push_back({blocks[k], power.blocks[k]});
     for (auto& device : meter_->device_currents(x, transient_->time()))
         out.blocks[device.block].devices.push_back({std::move(device.name), device.current});
-    const auto& nodes = system.circuit().nodes;  // the first is ground
-    for (std::size_t k = 1; k < nodes.size() && k <= static_cast<std::size_t>(system.nodes()); ++k) {
-        const auto block = Blocks::name_of_node(nodes[k]);
-        auto at = std::find_if(out.blocks.begin(), out.blocks.end(), [&](const auto& b) { return b.name == block; });
-        if (at == out.blocks.end()) at = out.blocks.insert(at, {block, 0});  // all elements outside of subcircuits are sources
-        at->nodes.push_back({nodes[k], x[k - 1]});
-    }
+    add_nodes(out.blocks);
     return out;
+}
+
+/// Adds to each block the nodes inside it and those at the terminals of its elements.
+void StreamingTransient::add_nodes(std::vector<OperatingState::Block>& blocks) const {
+    const auto& circuit = context_->system.circuit();
+    const auto x = transient_->x();
+    const auto solved = static_cast<int>(context_->system.nodes());  // node 0 is ground, and those after these have no voltage of their own
+    std::vector<std::set<int>> nodes(blocks.size());
+    for (std::size_t e = 0; e < circuit.elements.size(); ++e)
+        for (const int node : circuit.elements[e].nodes)
+            if (node > 0 && node <= solved) nodes[meter_->blocks().block_of_element[e]].insert(node);
+    for (int node = 1; node <= solved && node < static_cast<int>(circuit.nodes.size()); ++node) {
+        const auto name = Blocks::name_of_node(circuit.nodes[static_cast<std::size_t>(node)]);
+        auto at = std::find_if(blocks.begin(), blocks.end(), [&](const auto& block) { return block.name == name; });
+        if (at == blocks.end()) at = blocks.insert(at, {name, 0}), nodes.emplace_back();  // all elements outside of subcircuits are sources
+        nodes[static_cast<std::size_t>(at - blocks.begin())].insert(node);
+    }
+    for (std::size_t b = 0; b < blocks.size(); ++b)
+        for (const int node : nodes[b])
+            blocks[b].nodes.push_back({circuit.nodes[static_cast<std::size_t>(node)], x[static_cast<std::size_t>(node - 1)]});
 }
 
 void StreamingTransient::archive(StateArchive& a) {

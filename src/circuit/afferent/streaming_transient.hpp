@@ -72,6 +72,7 @@ public:
 private:
     /// The time of a sample on the transient's clock, s.
     double time_of(std::int64_t sample) const { return static_cast<double>(sample - origin_sample_) * force_.T(); }
+    void add_nodes(std::vector<OperatingState::Block>&) const;
     void archive(StateArchive&);
 };
 

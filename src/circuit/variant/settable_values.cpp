@@ -1,5 +1,7 @@
 #include "circuit/variant/settable_values.hpp"
 
+#include <limits>
+
 #include "circuit/cost/power.hpp"
 #include "circuit/devices.hpp"
 #include "circuit/variant/hierarchical_names.hpp"
@@ -49,8 +51,8 @@ std::vector<SettableValue> settable_values_of(const Circuit& circuit) {
     std::vector<SettableValue> out;
     out.push_back({.name = "temp", .value = circuit.temperature, .description = "temperature, degrees Celsius"});
     out.push_back({.name = "mismatch",
-                   .value = static_cast<double>(circuit.mismatch_seed.value_or(0)),
-                   .description = "seed of the device mismatch of a chip; without it the circuit is nominal"});
+                   .value = circuit.mismatch_seed ? static_cast<double>(*circuit.mismatch_seed) : std::numeric_limits<double>::quiet_NaN(),
+                   .description = "seed of the device mismatch of a chip; without a seed the circuit is nominal"});
     for (const auto& e : circuit.elements) {
         if (has_role(e, Role::transistor)) add_array(e, out);
         add_numbers(e, out);

@@ -71,7 +71,7 @@ function costTable({afferent, rest_force_N, power, area, blocks, afferents}: Cos
     const mean = power.mean ? `; mean ${short(power.mean.delivered_W, "W")}, of which sensor ${short(power.mean.sensor_W, "W")}` : "";
     const about = `power at rest ${short(power.op.delivered_W, "W")}, of which sensor ${short(power.op.sensor_W, "W")}${mean}.${afferents ? ` Density: ${short(afferents.per_mm2, "")} per mm².` : ""}`;
     return h("div", {}, h("p", {}, chip(colour), h("b", {}, afferent), " ", h("span", {class: "unit"}, about)),
-        table({name: `power and area of ${afferent}`, rows, isSortable: false, columns: [{name: "block"}, {name: "power_W", label: [`power at rest (${short(rest_force_N, "N")})`], isNumber: true, show: inUnit("W")},
+        table({name: `power and area of ${afferent}`, rows, hasTotal: true, columns: [{name: "block"}, {name: "power_W", label: [`power at rest (${short(rest_force_N, "N")})`], isNumber: true, show: inUnit("W")},
             {name: "area_m2", label: ["area (µm²)"], isNumber: true, show: (value) => [value === null ? "–" : ((value as number) * 1e12).toFixed(0)]},
             {name: "leakage_A", label: ["leakage when off"], isNumber: true, show: inUnit("A")}]}));
 }
