@@ -19,8 +19,6 @@ export function openingText({summary: {items, finished, all}}: Sweep): string {
 }
 
 const interval = ({low, high}: Estimate, text: (value: number | null) => string): Child => (low === null && high === null ? null : h("span", {class: "range"}, ` ${text(low)} … ${text(high)}`));
-/// An estimate from all items: over several grid points without its interval.
-const shownOf = (sweep: Sweep, one: Estimate): Estimate => (sweep.isMixed ? {...one, low: null, high: null} : one);
 const headed = (name: string, unit: string): Child[] => [name, unit ? h("span", {class: "unit"}, ` (${unitText(unit)})`) : null];
 const columnName = (name: string, unit: string) => (unit ? `${name} (${unitText(unit)})` : name);
 
@@ -42,8 +40,8 @@ export function showYields(host: Element, sweep: Sweep) {
     all.measures.forEach((one, k) => one.yield && rows.push({name: one.name, limits: limitsText(sweep.measures[k]), estimate: one.yield}));
     host.append(table({name: "yield", isStacked: true,
         columns: [{name: ""}, {name: "limits"}, {name: "passed", isNumber: true, show: (value) => [`${value} of ${all.items}`]},
-                  {name: sweep.isGrid ? "passed (%)" : sweep.isMixed ? "yield (%)" : "yield (%), 95 % CI", isNumber: true, show: (value, k) => [`${percent(value as number)} %`, interval(shownOf(sweep, rows[k].estimate), percent)]},
-                  {name: "bar", label: [""], class: "bar-cell", show: (_, k) => [fractionBar(shownOf(sweep, rows[k].estimate))]}],
+                  {name: sweep.isGrid ? "passed (%)" : sweep.isMixed ? "yield (%)" : "yield (%), 95 % CI", isNumber: true, show: (value, k) => [`${percent(value as number)} %`, interval(rows[k].estimate, percent)]},
+                  {name: "bar", label: [""], class: "bar-cell", show: (_, k) => [fractionBar(rows[k].estimate)]}],
         rows: rows.map(({name, limits, estimate}) => [name, limits, Math.round((estimate.value || 0) * all.items), estimate.value, null])}));
 }
 
@@ -51,7 +49,7 @@ export function showYields(host: Element, sweep: Sweep) {
 export function showDistributions(host: Element, sweep: Sweep) {
     const {all, quantiles} = sweep.summary;
     const text = (k: number) => (value: Cell) => textOn(sweep.measures[k], value as number | null);
-    const estimate = (pick: (one: MeasureSummary) => Estimate) => (value: Cell, k: number): Child[] => [text(k)(value), interval(shownOf(sweep, pick(all.measures[k])), text(k))];
+    const estimate = (pick: (one: MeasureSummary) => Estimate) => (value: Cell, k: number): Child[] => [text(k)(value), interval(pick(all.measures[k]), text(k))];
     const plain = (value: Cell, k: number): Child[] => [text(k)(value)];
     const normal = ({normal_plot: {correlation, min_of_normal_samples: floor}}: MeasureSummary) => (correlation === null ? "–" : `${correlation.toFixed(4)}, ${correlation >= (floor ?? 0) ? "normal" : "not normal"}`);
     host.append(table({name: "measures", isStacked: true, columns: [

@@ -219,16 +219,21 @@ std::vector<Dependence> dependences_of(const SweepTable& table, const std::optio
     return out;
 }
 
-/// Removes what makes sense only for random samples: a grid is complete, so it has no confidence intervals, sigmas or tests of normality.
-void remove_statistics(PointSummary& point) {
+/// Removes the confidence intervals. Items at several listed values are not a random sample.
+void remove_intervals(PointSummary& point) {
     const auto remove_interval = [](Estimate& e) { e.low = e.high = Estimate::none; };
     remove_interval(point.yield);
     for (auto& m : point.measures) {
-        remove_interval(m.mean);
-        m.sigma = {}, m.normality = m.normality_floor = Estimate::none;
+        remove_interval(m.mean), remove_interval(m.sigma);
         for (auto& q : m.quantiles) remove_interval(q);
         if (m.yield) remove_interval(*m.yield);
     }
+}
+
+/// Removes what makes sense only for random samples: a grid is complete, so it has no confidence intervals, sigmas or tests of normality.
+void remove_statistics(PointSummary& point) {
+    remove_intervals(point);
+    for (auto& m : point.measures) m.sigma = {}, m.normality = m.normality_floor = Estimate::none;
 }
 
 /// For a grid: the effects of the axes on all measures, and on the yield.
@@ -238,6 +243,11 @@ std::vector<Dependence> effects_on_all(const SweepTable& table, const std::vecto
         out.push_back({table.measures[m].name, {}, {}, {}, {}, axis_effects(table, table.measure_values[m])});
     if (table.has_limits()) out.push_back({"yield", {}, {}, {}, {}, axis_effects(table, {passed.begin(), passed.end()})});
     return out;
+}
+
+/// True if an axis has several values that are not random.
+bool has_listed_axis(const SweepTable& table) {
+    return std::any_of(table.points.begin(), table.points.end(), [](const auto& values) { return values.size() > 1; });
 }
 
 }  // namespace
@@ -256,6 +266,7 @@ Result<SweepSummary> summary_of(const SweepTable& table, const std::optional<Mis
     ThreadPool pool(table.rows() > 100000 ? 0 : 1);
     pool.for_each(table.measures.size(), [&](std::size_t m, unsigned) { put_measure(out, table, groups, m); });
     if (!table.is_grid) {
+        if (has_listed_axis(table)) remove_intervals(out.all);
         out.dependences = dependences_of(table, mismatch, passed, out.analysed_chips);
         return out;
     }

@@ -4,9 +4,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/text/aligned_table.hpp"
 #include "core/text/ascii_text.hpp"
 #include "core/text/quantity.hpp"
-#include "core/text/aligned_table.hpp"
 
 namespace corpuscle {
 namespace {
@@ -67,11 +67,14 @@ std::vector<NumberFormat> formats_of(const SweepTable& table, const SweepSummary
     return out;
 }
 
-/// Formats a table. The values of a grid are exact, so that its tables have no confidence intervals.
+/// Formats a table. Without values that are random, such as those of a grid, it has no columns for confidence intervals.
 std::string table_text(const SweepTable& table, TableRows rows) {
-    for (auto c = static_cast<std::ptrdiff_t>(rows[0].size()); table.is_grid && c-- > 0;)
-        if (rows[0].begin()[c] == interval_heading)
+    for (auto c = static_cast<std::ptrdiff_t>(rows[0].size()); c-- > 0;) {
+        if (rows[0].begin()[c] != interval_heading) continue;
+        const bool is_empty = std::all_of(rows.begin() + 1, rows.end(), [&](const auto& row) { return row.begin()[c] == "-"; });
+        if (table.is_grid || is_empty)
             for (auto& row : rows) row.erase(row.begin() + c);
+    }
     return "\n" + format_table(rows);
 }
 
