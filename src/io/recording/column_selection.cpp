@@ -210,7 +210,19 @@ std::string unitless_note(std::vector<std::string> names) {
     return fmt::format("no unit for {}: assuming newtons", joined(names));
 }
 
+/// Newtons per unit of a column, if the unit is one of force.
+std::optional<double> force_of_unit(const std::string& unit) {
+    if (is_newton_word(unit)) return 1.0;
+    const auto parsed = parse_unit(unit);
+    return parsed && parsed->has_same_dimension(*parse_unit("N")) ? std::optional(parsed->factor) : std::nullopt;
+}
+
 std::string overridden_unit_note(const Column& column, const RecordingOptions& options) {
+    if (options.scale && !options.unit) {
+        const auto force = force_of_unit(column.unit);
+        if (!force || *force == *options.scale) return "";
+        return fmt::format("--scale {} overrides the unit of '{}' in the header, {}", *options.scale, column.name, column.unit);
+    }
     if (column.unit.empty() || !options.unit || *options.unit == column.unit || options.scale) return "";
     return fmt::format("--unit {} overrides the unit of '{}' in the header, {}", *options.unit, column.name, column.unit);
 }
@@ -220,9 +232,8 @@ Result<double> newtons_per_unit(const Column& column, const RecordingOptions& op
     if (options.scale) return *options.scale;
     const std::string& unit = options.unit ? *options.unit : column.unit;
     if (unit.empty()) return 1.0;
-    if (is_newton_word(unit)) return 1.0;
+    if (const auto force = force_of_unit(unit)) return *force;
     const auto parsed = unit == "raw" ? Result<Unit>(bad_input("")) : parse_unit(unit);
-    if (parsed && parsed->has_same_dimension(*parse_unit("N"))) return parsed->factor;
     const auto subject =
         options.unit ? fmt::format("'{}' is read as {}", column.name, unit) : fmt::format("'{}' is in {}", column.name, unit);
     const auto problem = parsed          ? "which is not a force"
