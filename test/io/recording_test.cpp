@@ -170,8 +170,9 @@ TEST(Recording, OptionsThatContradictTheHeaderAreReported) {
     EXPECT_EQ(read(folder.write("x.csv", "t,F_N\n0,1\n0.1,2\n"), {.scale = 0.5}).notes.at(0),
               "--scale 0.5 overrides the unit of 'F' in the header, N");
     for (const char* heading : {"F_mN", "F_V", "F"})  // the same factor, no force, no unit
-        for (const auto& note : read(folder.write("x.csv", fmt::format("t,{}\n0,1\n0.1,2\n", heading)), {.scale = 1e-3}).notes)
-            EXPECT_EQ(note.find("overrides"), std::string::npos) << note;
+        for (const double scale : {1e-3, -1e-3})
+            for (const auto& note : read(folder.write("x.csv", fmt::format("t,{}\n0,1\n0.1,2\n", heading)), {.scale = scale}).notes)
+                EXPECT_EQ(note.find("overrides"), std::string::npos) << note;
 }
 
 TEST(Recording, MillisecondsWithoutAUnitCauseAWarningUnlessTheUnitIsGiven) {

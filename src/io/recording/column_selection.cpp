@@ -1,6 +1,7 @@
 #include "io/recording/column_selection.hpp"
 
 #include <fmt/format.h>
+#include <cmath>
 
 #include "core/parameter.hpp"
 #include "core/text/ascii_text.hpp"
@@ -220,7 +221,7 @@ std::optional<double> force_of_unit(const std::string& unit) {
 std::string overridden_unit_note(const Column& column, const RecordingOptions& options) {
     if (options.scale && !options.unit) {
         const auto force = force_of_unit(column.unit);
-        if (!force || *force == *options.scale) return "";
+        if (!force || *force == std::abs(*options.scale)) return "";  // --scale -1 changes the sign of newtons
         return fmt::format("--scale {} overrides the unit of '{}' in the header, {}", *options.scale, column.name, column.unit);
     }
     if (column.unit.empty() || !options.unit || *options.unit == column.unit || options.scale) return "";
