@@ -9,7 +9,7 @@
 namespace corpuscle::page {
 namespace {
 
-constexpr std::size_t max_list = 256, max_text = 4096;  // elements of a list; bytes of a text
+constexpr std::size_t max_list = 2048, max_text = 4096;  // elements of a list, such as the sizes of a chip; bytes of a text
 
 Error missing_key(const std::string& name, const char* key) { return bad_input(fmt::format("{}: the key \"{}\" is missing", name, key)); }
 

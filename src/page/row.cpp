@@ -18,7 +18,7 @@ Result<void> refuse_path(const std::string& afferent) {
     return bad_input(fmt::format("'{}' is the path of a file; {}", afferent, file_afferent_advice(afferent)));
 }
 
-/// True if an afferent can go on from a state of another. Words of more bits, for example, do not fit into a converter of fewer.
+/// True if an afferent can go on from a state of another. The codes of a converter of 12 bits, for example, do not fit into one of 8.
 bool accepts(const Afferent& afferent, State state) {
     std::vector<Spike> spikes;
     ResponseBlock response{spikes};

@@ -114,7 +114,7 @@ TEST(PageEngine, SaysWhetherAChangedRowGoesOnOrStartsAgain) {
     for (const double t : answer.numbers("time")) EXPECT_GE(t, 0.1);
 }
 
-/// The words of 12 bits of the digital systems do not fit into 8 bits.
+/// The codes of a converter of 12 bits do not fit into one of 8.
 TEST(PageEngine, ARowWhoseStateDoesNotFitTheChangedSettingsStartsAgain) {
     PageEngine engine;
     ask_well(engine, R"({"request": "start", "rate": 10000, "rows": [{"afferent": "sa1-kim"}]})");

@@ -45,8 +45,8 @@ class Processes(unittest.TestCase):
         with subprocess.Popen([sys.executable, "-c", program], stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True) as child:
             self.assertEqual(child.stdout.readline(), "ready\n")
             time.sleep(0.5)
-            start = processor_seconds(child.pid)
             child.send_signal(signal.SIGINT)
+            start = processor_seconds(child.pid)
             self.assertEqual(child.stdout.readline(), "stopped\n")
             self.assertLess(processor_seconds(child.pid) - start, 0.2)
             child.communicate("\n")

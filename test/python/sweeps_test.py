@@ -157,6 +157,32 @@ class Errors(InAFolder):
         self.assertTrue(stored._repr_html_())
 
 
+class Intervals(InAFolder):
+    RANDOM = '[[vary]]\nwhat = "f_B"\nhow = "normal"\nsigma = "5%"\n'
+    LISTED = '[[vary]]\nwhat = "press.F_max"\nlist = ["1N", "2N"]\n'
+
+    def document(self, axes):
+        with open("intervals.toml", "w") as file:
+            file.write('afferent = "sa1"\nforce = "press"\nmeasures = ["first_spike"]\nsamples = 3\n' + axes)
+        for arguments in (["intervals.toml", "--out", "intervals.sqlite", "--quiet"], ["show", "intervals.sqlite", "--json"]):
+            status, printed, message = command_line("sweep", *arguments)
+            self.assertEqual(status, 0, message)
+        os.remove("intervals.sqlite")
+        document = json.loads(printed)
+        return [one["is_listed"] for one in document["axes"]], document["all"]["measures"][0]["mean"]["low"], document["points"][0]["yield"]["low"]
+
+    def test_items_at_several_listed_values_have_none_together_but_each_point_has_one(self):
+        listed, of_all, of_point = self.document(self.RANDOM + self.LISTED)
+        self.assertEqual(listed, [False, True])
+        self.assertIsNone(of_all)
+        self.assertIsNotNone(of_point)
+
+    def test_random_items_have_one_although_they_are_few(self):
+        listed, of_all, _ = self.document(self.RANDOM)
+        self.assertEqual(listed, [False])
+        self.assertIsNotNone(of_all)
+
+
 class Interruption(InAFolder):
     def test_after_ctrl_c_it_computes_for_at_most_a_fifth_of_a_second_and_the_same_call_resumes(self):
         program = (f"import corpuscle\nprint('ready', flush=True)\ntry:\n    corpuscle.sweep({CHIPS!r}, 'chips.sqlite')\n"
@@ -165,8 +191,8 @@ class Interruption(InAFolder):
             self.assertEqual(child.stdout.readline(), "ready\n")
             while not os.path.exists("chips.sqlite") or len(corpuscle.read_sweep("chips.sqlite")) == 0:
                 time.sleep(0.05)
-            start = processor_seconds(child.pid)
             child.send_signal(signal.SIGINT)
+            start = processor_seconds(child.pid)
             line = child.stdout.readline()
             computed = processor_seconds(child.pid) - start
             child.communicate("\n")

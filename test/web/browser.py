@@ -188,8 +188,8 @@ def unsaved_panels(browser):
 
 def cropped_tables(browser):
     """Tables that would be cut at the edge of the paper, and buttons over the headings of their table. Draws the page as for printing."""
-    browser.execute_cdp_cmd("Emulation.setEmulatedMedia", {"media": "print"})
     browser.execute_script("dispatchEvent(new Event('beforeprint'))")
+    browser.execute_cdp_cmd("Emulation.setEmulatedMedia", {"media": "print"})
     cropped = browser.execute_script("""return [...document.querySelectorAll(".scroll")].filter((one) => one.clientWidth > 0 &&
         (one.firstChild.getBoundingClientRect().width > 701 || one.scrollHeight > one.clientHeight + 2)).map((one) => one.getAttribute("aria-label"))""")
     browser.execute_script("dispatchEvent(new Event('afterprint'))")

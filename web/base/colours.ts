@@ -10,7 +10,7 @@ export const seriesColour = (index: number) => `var(--series-${index % 8})`;
 export const CLASSES = ["sa1", "fa1", "sa2", "fa2"];
 /// The colour of a class of afferents, the same on all pages.
 export const classColour = (name: string) => seriesColour(Math.max(0, CLASSES.indexOf(name)));
-/// The colour of the k-th of several afferents of one class: the first is pure, others are darker or greyer. Each has a contrast of 3 to the paper.
+/// The colour of the k-th of several afferents of one class: the first is pure, others are mixed with the colour of the text or with grey. Each has a contrast of 3 to the paper.
 export const variantColour = (name: string, k: number) => (k === 0 ? classColour(name) : mixed(classColour(name), k % 2 ? "var(--ink)" : "var(--axis)", [0.45, 0.6, 0.7, 0.85][(k - 1) % 4]));
 /// A mixture: fraction 0 is the first colour, 1 the second.
 export const mixed = (first: string, second: string, fraction: number) => `color-mix(in srgb, ${second} ${+(100 * fraction).toFixed(3)}%, ${first})`;

@@ -93,7 +93,10 @@ class LivePage {
     /// The click may also have ended the typing of a value, which the engine has to accept first.
     private copyLink(button: HTMLButtonElement) {
         if (this.session.isChanging) requestAnimationFrame(() => this.copyLink(button));
-        else copy(currentAddress(), button);
+        else {
+            putSettingsInLink(this.settings);  // it may still be a link that was refused
+            copy(currentAddress(), button);
+        }
     }
 
     private async saveNwb() {
@@ -199,7 +202,7 @@ class LivePage {
     }
 
     /// Starts with the settings of the link, or with the defaults if it is damaged or the engine refuses it. Such a link stays in the address bar, where
-    /// the user can correct it, until a setting changes.
+    /// the user can correct it, until a setting changes or the user restarts.
     async openLink() {
         const settings = settingsOfLink(this.catalogue);
         let reason = "";

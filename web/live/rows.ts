@@ -6,7 +6,7 @@ import type {Charts} from "./charts";
 import {Chip} from "./chip";
 import type {Setting} from "./catalogue";
 import type {Session} from "./session";
-import {MAX_ROWS, SettingQueue} from "./settings";
+import {MAX_ROWS, RowSettings, SettingQueue} from "./settings";
 import {parameterControl, settingControl} from "./sliders";
 
 const RATE_WINDOW = 0.25;  // s
@@ -51,13 +51,14 @@ export class Rows {
         this.restart(() => this.session.settings.rows.push({afferent, set: new Map()}));
     }
 
-    private remove(k: number) {
+    /// `row`: not its number, which another removal may have changed.
+    private remove(row: RowSettings) {
         this.open.clear();
-        this.restart(() => this.session.settings.rows.splice(k, 1));
+        this.restart(() => { this.session.settings.rows = this.session.settings.rows.filter((one) => one !== row); });
     }
 
     private card(k: number): HTMLElement {
-        const {info} = this.session.rows[k], content = h("div"), details: HTMLDetailsElement = h("details", {open: this.open.has(k)},
+        const {info} = this.session.rows[k], own = this.session.settings.rows[k], content = h("div"), details: HTMLDetailsElement = h("details", {open: this.open.has(k)},
             h("summary", {}, h("span", {class: "chip", style: `background: ${this.session.rows[k].colour}`}), h("b", {}, info.name), " ", this.readouts[k]), content);
         details.addEventListener("toggle", () => {
             if (details.open) this.open.add(k);
@@ -65,7 +66,7 @@ export class Rows {
             if (details.open && !content.firstChild) this.showDetails(k, content);
         });
         if (details.open) this.showDetails(k, content);
-        return h("div", {class: "row-card", "data-row": info.name}, details, h("button", {type: "button", class: "remove", title: "Remove", "aria-label": `Remove ${info.name}`, onclick: (event: MouseEvent) => { if (event.detail < 2) this.remove(k); }}, "×"));
+        return h("div", {class: "row-card", "data-row": info.name}, details, h("button", {type: "button", class: "remove", title: "Remove", "aria-label": `Remove ${info.name}`, onclick: (event: MouseEvent) => { if (event.detail < 2) this.remove(own); }}, "×"));
     }
 
     private showDetails(k: number, host: HTMLElement) {

@@ -92,10 +92,10 @@ export function settingsOfLink(catalogue: Catalogue): Settings | string {
     const contact = parsedSettings((values.get("contact") || "").split("~").filter(Boolean));
     const skin = values.get("skin") ?? out.population, indenter = values.get("indenter") ?? out.indenter;
     const isSkin = skin === "" || skin === "none" || catalogue.populations.some(({name}) => name === skin), isIndenter = catalogue.indenters.some(({name}) => name === indenter);
-    const isGood: Record<string, boolean> = {rows: rows !== null, contact: contact !== null, skin: isSkin, indenter: isIndenter};
+    const isGood = new Map([["rows", rows !== null], ["contact", contact !== null], ["skin", isSkin], ["indenter", isIndenter]]);
     Object.assign(out, {rate: number("rate", 500, 100_000, out.rate), seed: number("seed", 0, 2 ** 53, out.seed), force: number("force", MIN_FORCE, MAX_FORCE, out.force)});
-    for (const name of ["rate", "seed", "force"] as const) isGood[name] = !Number.isNaN(out[name]);
-    const damaged = [...values.keys()].find((name) => !isGood[name]);
+    for (const name of ["rate", "seed", "force"] as const) isGood.set(name, !Number.isNaN(out[name]));
+    const damaged = [...values.keys()].find((name) => !isGood.get(name));
     return damaged ?? {...out, rows: rows!, contact: contact!, population: skin === "none" ? "" : skin, indenter};
 }
 

@@ -64,7 +64,7 @@ export function settingControl(setting: Setting, value: string | undefined, chan
         const text = typed.trim() || own;  // an empty field is the default
         const isAccepted = await change(text === own ? null : text);
         if (isAccepted) accepted = text;
-        if (isAccepted !== null) field.value = accepted;
+        if (isAccepted === false || (isAccepted && field.value === typed)) field.value = accepted;  // unless the user types the next value
     };
     const field: HTMLInputElement | HTMLSelectElement = kind === "choice"
         ? h("select", {"aria-label": name, onchange: () => void set(field.value)}, ...choices.map((text) => h("option", {selected: text === current}, text)))

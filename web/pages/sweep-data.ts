@@ -62,13 +62,13 @@ export class Sweep {
 
     /// The effects of the listed axes of a grid with random items: the means of the items at each value. The largest effect comes first.
     effectsOfGrid(measure: number): Effect[] {
-        const values = Array.from(this.measureValues[measure]).filter((v) => !Number.isNaN(v)), mean = values.reduce((sum, v) => sum + v, 0) / values.length;
-        const total = values.reduce((sum, v) => sum + (v - mean) ** 2, 0) / values.length;
+        const items = Array.from(this.measureValues[measure]), known = items.filter((v) => !Number.isNaN(v)), mean = known.reduce((sum, v) => sum + v, 0) / known.length;
+        const total = known.reduce((sum, v) => sum + (v - mean) ** 2, 0);
         if (!(total > 0)) return [];
         const effects = this.summary.axes.map((one, axis) => ({one, axis})).filter(({one, axis}) => one.is_listed && this.levels(axis).length > 1).map(({axis}): Effect => {
-            const {xs, means: table} = this.meansOver(measure, axis, axis, []), means = table.map((column, k) => column[k]);
-            const between = means.reduce((sum: number, v) => sum + ((v ?? mean) - mean) ** 2, 0) / means.length;  // the points have equally many items
-            return {axis, fraction: between / total, values: xs, means};
+            const levels = this.levels(axis), groups = levels.map((level) => items.filter((v, k) => !Number.isNaN(v) && this.axisValues[axis][k] === level));
+            const means = groups.map((group) => (group.length ? group.reduce((sum, v) => sum + v, 0) / group.length : null));
+            return {axis, fraction: groups.reduce((sum, group, k) => sum + group.length * ((means[k] ?? mean) - mean) ** 2, 0) / total, values: levels, means};
         });
         return effects.sort((one, other) => other.fraction - one.fraction);
     }

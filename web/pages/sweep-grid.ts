@@ -25,7 +25,7 @@ const effectsOf = (sweep: Sweep, measure: number): Effect[] => (sweep.isGrid ? s
 /// Axes with several values, that with the largest effect on the measure first.
 export function variedAxes(sweep: Sweep, measure: number): number[] {
     const byEffect = effectsOf(sweep, measure).map(({axis}) => axis), all = sweep.summary.axes.map((_, a) => a).filter((a) => sweep.levels(a).length > 1);
-    return sweep.isGrid ? [...byEffect, ...all.filter((a) => !byEffect.includes(a))] : byEffect;
+    return [...byEffect, ...all.filter((a) => !byEffect.includes(a) && (sweep.isGrid || sweep.summary.axes[a].is_listed))];
 }
 
 /// Selectors of the axes. `change` is called after each choice.

@@ -20,7 +20,7 @@ export function showSweepPage(data: SweepData) {
     if (!sweep.isGrid || all.passed < all.items) showYields(section(main, "yields", sweep.isGrid ? "Limits" : "Yield"), sweep);
     const figures = new Figures(main, sweep);
     showAxes(main, sweep);
-    const measures = section(main, "measures", "Measures", sweep.isGrid ? "" : sweep.isMixed ? "over all grid points, which are not random; intervals of confidence are given at each point" : "with 95 % confidence intervals");
+    const measures = section(main, "measures", "Measures", sweep.isGrid ? "" : sweep.isMixed ? "over all grid points, without confidence intervals, because the points are not random" : "with 95 % confidence intervals");
     if (sweep.isGrid) showGridMeasures(measures, sweep);
     else showDistributions(measures, sweep);
     if (sweep.isGrid) showEffects(main, sweep);
@@ -102,7 +102,8 @@ class Figures {
             showHistogram(columns, sweep, choice);
             showNormalPlot(columns, sweep, choice);
             for (const factor of data.factors[choice.measure] || []) showFactor(columns, sweep, choice, factor);
-            if (this.hasGrid && variedAxes(sweep, choice.measure).length) {
+            if (sweep.isMixed && !sweep.isComplete) columns.append(h("p", {class: "note"}, "The sweep has too many items for the page to show their means over the grid."));
+            if (this.hasGrid) {
                 axisChoosers(this.axes, sweep, choice.measure, grid, redraw);
                 const means = h("div", {class: "columns thirds"});
                 group("means", `Means of ${sweep.measures[choice.measure].name} at the grid points`).append(means);

@@ -197,7 +197,7 @@ Result<std::string> sweep_page(const SweepResults& results, const SweepTable& ta
     page["reasons"] = Json::object();
     for (const auto& failure : diverged) page["reasons"][fmt::format("{}", failure.item)] = failure.reason;
     for (const auto* rows : {&points, &chips, &failed}) shown.insert(rows->begin(), rows->end());
-    if (table.is_grid && table.rows() <= max_grid)
+    if ((table.is_grid || table.varies_by_list()) && table.rows() <= max_grid)  // for means over the listed axes
         for (std::size_t r = 0; r < table.rows(); ++r) shown.insert(r);
     page["points"] = points, page["failed"] = failed;
     page["factors"] = factors_document(table, summary, points);

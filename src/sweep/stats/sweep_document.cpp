@@ -107,7 +107,7 @@ SummaryJson document_of(const SweepTable& table, const SweepSummary& summary, co
     out["axes"] = SummaryJson::array(), out["measures"] = SummaryJson::array(), out["grouped_by"] = SummaryJson::array();
     for (std::size_t a = 0; a < table.axes.size(); ++a) {
         out["axes"].push_back(column_json(table.axes[a]));
-        out["axes"].back()["is_listed"] = table.has_points(a);
+        out["axes"].back()["is_listed"] = static_cast<bool>(table.is_listed[a]);
     }
     for (const auto& m : table.measures) out["measures"].push_back(column_json(m));
     for (const auto a : summary.axes) out["grouped_by"].push_back(table.axes[a].name);

@@ -245,11 +245,6 @@ std::vector<Dependence> effects_on_all(const SweepTable& table, const std::vecto
     return out;
 }
 
-/// True if an axis has several values that are not random.
-bool has_listed_axis(const SweepTable& table) {
-    return std::any_of(table.points.begin(), table.points.end(), [](const auto& values) { return values.size() > 1; });
-}
-
 }  // namespace
 
 Result<SweepSummary> summary_of(const SweepTable& table, const std::optional<MismatchSamples>& mismatch,
@@ -266,7 +261,7 @@ Result<SweepSummary> summary_of(const SweepTable& table, const std::optional<Mis
     ThreadPool pool(table.rows() > 100000 ? 0 : 1);
     pool.for_each(table.measures.size(), [&](std::size_t m, unsigned) { put_measure(out, table, groups, m); });
     if (!table.is_grid) {
-        if (has_listed_axis(table)) remove_intervals(out.all);
+        if (table.varies_by_list()) remove_intervals(out.all);
         out.dependences = dependences_of(table, mismatch, passed, out.analysed_chips);
         return out;
     }

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <limits>
 
 #include "core/parameter.hpp"
@@ -102,12 +103,37 @@ std::string file_text(const std::string& stored) {
 
 }  // namespace
 
+namespace {
+
+Result<sweeps::SweepText> sweep_text_of(const SweepResults& results) {
+    const auto stored = results.about("sweep file");  // empty if the sweep was a netlist with .step or .mc, without a sweep file
+    return sweeps::read_sweep_text(file_text(stored), results.path());
+}
+
+/// For each axis, whether its values are listed. Those of a netlist's .step come first, then those of the sweep file, then those of the
+/// process.
+std::vector<bool> listed_axes(const SweepResults& results) {
+    std::vector<bool> out(results.axes.size());
+    const auto text = sweep_text_of(results);
+    if (!text) return out;
+    std::vector<bool> sampled;  // for each axis of the sweep file
+    for (const auto& axis : text->axes())
+        if (!sweeps::is_chips_axis(axis)) sampled.push_back(sweeps::is_sampled(axis));
+    const auto of_process = static_cast<std::size_t>(
+        std::ranges::count_if(results.axes, [](const SweepColumn& axis) { return axis.name.starts_with("process."); }));
+    if (sampled.size() + of_process > out.size()) return out;  // a results file that was changed
+    const auto steps = out.size() - of_process - sampled.size();
+    for (std::size_t a = 0; a < steps + sampled.size(); ++a) out[a] = a < steps || !sampled[a - steps];
+    return out;
+}
+
+}  // namespace
+
 bool is_deterministic(const SweepResults& results) {
     if (!results.about(mismatch_metadata_name).empty() || results.axes.empty()) return false;
     for (const auto& axis : results.axes)
         if (axis.name.starts_with("process.")) return false;
-    const auto stored = results.about("sweep file");  // empty if the sweep was a netlist with .step or .mc, without a sweep file
-    const auto text = sweeps::read_sweep_text(file_text(stored), results.path());
+    const auto text = sweep_text_of(results);
     if (!text) return false;
     const auto axes = text->axes();
     return std::none_of(axes.begin(), axes.end(),
@@ -119,6 +145,12 @@ bool SweepTable::meets_limits(std::size_t row, std::size_t measure) const {
     const auto& m = measures[measure];
     const double x = measure_values[measure][row];
     return (!m.min || x >= *m.min) && (!m.max || x <= *m.max);
+}
+
+bool SweepTable::varies_by_list() const {
+    for (std::size_t a = 0; a < is_listed.size(); ++a)
+        if (is_listed[a] && std::ranges::adjacent_find(axis_values[a], std::not_equal_to()) != axis_values[a].end()) return true;
+    return false;
 }
 
 bool SweepTable::has_limits() const {
@@ -158,7 +190,7 @@ Result<SweepTable> read_table(const SweepResults& results, const std::vector<std
             std::vector<double>().swap(part.columns[k]);
         }
     }
-    out.is_grid = is_deterministic(results);
+    out.is_grid = is_deterministic(results), out.is_listed = listed_axes(results);
     for (std::size_t a = 0; a < out.axes.size(); ++a)
         out.points.push_back(few_values(out.axis_values[a], out.is_grid || !out.axes[a].labels.empty(),
                                         out.is_grid ? SweepTable::max_grid_points : SweepTable::max_points));

@@ -15,6 +15,7 @@ struct SweepTable {
     std::vector<ItemEnd> ends;        ///< for each row
     std::vector<SweepColumn> axes, measures;
     std::vector<std::vector<double>> axis_values, measure_values;  ///< [column][row]; NaN: no value
+    std::vector<bool> is_listed;                                   ///< for each axis: its values are listed, not drawn at random
 
     /// For each axis: its points, which are its distinct values in ascending order, if it has few, as a listed axis does. Otherwise empty.
     std::vector<std::vector<double>> points;
@@ -28,6 +29,8 @@ struct SweepTable {
     bool has_limits(std::size_t measure) const { return measures[measure].min || measures[measure].max; }
     bool has_limits() const;  ///< of any measure
     bool has_points(std::size_t axis) const { return !points[axis].empty(); }
+    /// True if an axis has several listed values, so that all items together are not a random sample.
+    bool varies_by_list() const;
     /// True if the item of this row ended normally and meets the limits of all measures.
     bool passes(std::size_t row) const;
 };
