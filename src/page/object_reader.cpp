@@ -62,10 +62,10 @@ Result<std::vector<std::string>> ObjectReader::texts(const char* key) {
     std::vector<std::string> out;
     const auto* value = find(key);
     if (!value) return out;
-    if (!value->is_array() || value->size() > max_list) return wrong_value(name_, key, *value, "a list of texts");
+    const auto expected = [&] { return wrong_value(name_, key, *value, fmt::format("a list of at most {} texts", max_list)); };
+    if (!value->is_array() || value->size() > max_list) return expected();
     for (const auto& element : *value) {
-        if (!element.is_string() || element.get_ref<const std::string&>().size() > max_text)
-            return wrong_value(name_, key, *value, "a list of texts");
+        if (!element.is_string() || element.get_ref<const std::string&>().size() > max_text) return expected();
         out.push_back(element.get<std::string>());
     }
     return out;
@@ -75,9 +75,10 @@ Result<std::vector<const Json*>> ObjectReader::objects(const char* key) {
     std::vector<const Json*> out;
     const auto* value = find(key);
     if (!value) return out;
-    if (!value->is_array() || value->size() > max_list) return wrong_value(name_, key, *value, "a list of objects");
+    const auto expected = [&] { return wrong_value(name_, key, *value, fmt::format("a list of at most {} objects", max_list)); };
+    if (!value->is_array() || value->size() > max_list) return expected();
     for (const auto& element : *value) {
-        if (!element.is_object()) return wrong_value(name_, key, *value, "a list of objects");
+        if (!element.is_object()) return expected();
         out.push_back(&element);
     }
     return out;

@@ -55,6 +55,15 @@ TEST(PageRequests, ACircuitHasSettableValues) {
     EXPECT_TRUE(ask_well(engine, R"({"request": "settable", "afferent": "sa1-nerve"})")["settable"].empty());
 }
 
+TEST(PageRequests, AListHasALimit) {
+    PageEngine engine;
+    Json request = {{"request", "schematic"}, {"afferent", "sa1-circuit"}, {"set", Json::array()}};
+    for (int k = 0; k < 2049; ++k) request["set"].push_back("temp=30");
+    const auto error = ask(engine, request.dump()).error();
+    EXPECT_NE(error.find("\"set\" is"), std::string::npos) << error;
+    EXPECT_NE(error.find("expected a list of at most 2048 texts"), std::string::npos) << error;
+}
+
 /// Each value that is offered can be set to its present value.
 TEST(PageRequests, EachSettableValueOfAChipIsAccepted) {
     PageEngine engine;
