@@ -67,7 +67,7 @@ export class Recording {
         return ++this.newest;
     }
 
-    /// What a replay depends on beside its force.
+    /// The settings that change a replay of the same force.
     private get settingsText() {
         const {rows, seed} = this.session.settings;
         return JSON.stringify([seed, rows.map(({afferent, set}) => [afferent, settingTexts(set)])]);
