@@ -115,6 +115,7 @@ TEST(Stimulus, WrongNamesAndValuesAreRefusedWithASuggestion) {
         return made ? std::string("accepted") : made.error().text();
     };
     EXPECT_EQ(error_text("pres"), "unknown stimulus 'pres'; did you mean 'press'?");
+    EXPECT_TRUE(error_text("vibration").starts_with("unknown stimulus 'vibration'; there are press, ")) << error_text("vibration");
     EXPECT_EQ(error_text("press", {"press.F_mx=2N"}),
               "press: unknown parameter 'F_mx'; did you mean 'F_max'? (it has F_min, F_max, t_rest, t_up, t_hold, t_down, t_post)");
     EXPECT_EQ(error_text("press", {"press.F_max=2s"}), "press.F_max: '2s' is a time; expected a value in N, such as '2 N'");

@@ -135,7 +135,9 @@ Result<Applied<std::unique_ptr<ForceSource>>> make_stimulus(std::string_view tex
         if (!entry) {
             std::vector<std::string_view> names;
             for (const auto& c : stimulus_catalog()) names.push_back(c.name);
-            return bad_input(fmt::format("unknown stimulus '{}'{}", name, did_you_mean(name, names)));
+            const auto similar = did_you_mean(name, names);
+            return bad_input(
+                fmt::format("unknown stimulus '{}'{}", name, similar.empty() ? fmt::format("; there are {}", joined(names)) : similar));
         }
         const auto applied = TRY(settings_for(name, entry->parameters, overrides));
         keep_unused(unused, applied.unused);
